@@ -5,6 +5,7 @@
 #include "calibration/bandwidth_choice.h"
 #include "calibration/budget/budget_lines.h"
 #include "calibration/budget/interval_tally.h"
+#include "calibration/budget/new_mount_line.h"
 #include "calibration/curvature_rule_learning.h"
 #include "calibration/held_out_scoring.h"
 #include "calibration/history_training.h"
@@ -74,6 +75,7 @@ class Training {
       budget_sums_ = scoring.budget();
       calibration.budget.intervals =
           remount.assessable() ? intervalsOf(remount, regressors.whole, calibration) : scoring.intervals();
+      if (remount.assessable()) new_mount_ = remount.newMount();
     }
     const HistoryProblem problem{problem_.recordings,
                                  classes_,
@@ -93,6 +95,7 @@ class Training {
     if (!problem_.options.scores) return;
     ErrorIntervals intervals = std::move(calibration.budget.intervals);
     calibration.budget = errorBudget(problem_, *budget_scale_, budget_sums_, calibration);
+    calibration.budget.lines.push_back(newMountLine(calibration, new_mount_));
     calibration.budget.intervals = std::move(intervals);
   }
 
@@ -106,7 +109,7 @@ class Training {
   Calibration describe();
   std::shared_ptr<compensation::TrainingStatistics> emptyStatistics() const;
   void sum(std::size_t taxel);
-  ErrorIntervals intervalsOf(const RemountErrors& remount, const regression::RegressorOptions& regressor,
+  ErrorIntervals intervalsOf(RemountErrors& remount, const regression::RegressorOptions& regressor,
                              const Calibration& calibration) const;
   compensation::FoldRegressors chooseWithZeros(Calibration& calibration, const CalibrationProgress& progress);
   void train(std::size_t taxel, const compensation::FoldRegressors& regressors, Calibration& calibration,
@@ -122,6 +125,7 @@ class Training {
   std::shared_ptr<compensation::TrainingStatistics> statistics_;  // filled by sum()
   std::optional<BudgetScale> budget_scale_;                       // by run(), where there are scores
   BudgetSums budget_sums_;
+  NewMountErrors new_mount_;
 };
 
 Calibration Training::describe() {
@@ -203,8 +207,7 @@ void Training::train(std::size_t taxel, const compensation::FoldRegressors& regr
 
 // The intervals of new mounts. The models without a mount are trained a second time, because the deviation to
 // compare with is known only after the first.
-ErrorIntervals Training::intervalsOf(const RemountErrors& remount,
-                                     const regression::RegressorOptions& regressor,
+ErrorIntervals Training::intervalsOf(RemountErrors& remount, const regression::RegressorOptions& regressor,
                                      const Calibration& calibration) const {
   IntervalTally intervals(IntervalUnit::kMounts, remount.units(), statistics_->taxels,
                           calibration.trained.pressure.high);

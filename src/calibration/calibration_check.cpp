@@ -12,6 +12,7 @@
 #include "fsr_pressure_map/calibration/calibrator.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "settings/number_text.h"
+#include "statistics/error_bins.h"
 
 namespace fsr::calibration {
 
@@ -24,14 +25,18 @@ struct Sums {
   std::uint64_t readings = 0;
   std::uint64_t within = 0;
   std::uint64_t beyond = 0;
+  std::uint64_t not_settled = 0;
   double error = 0;     // [Pa]
   double square = 0;    // [Pa^2]
   double expected = 0;  // of the stated deviations [Pa^2]
 
-  void add(double e, double deviation, bool is_beyond) {
+  void add(double e, double deviation, std::uint16_t flags) {
+    constexpr std::uint16_t kBeyond =
+        map::taxel_flag::kReadingExtrapolated | map::taxel_flag::kCurvatureExtrapolated;
     ++readings;
     within += std::abs(e) <= deviation;
-    beyond += is_beyond;
+    beyond += (flags & kBeyond) != 0;
+    not_settled += (flags & map::taxel_flag::kHistoryShort) != 0;
     error += e;
     square += e * e;
     expected += deviation * deviation;
@@ -50,6 +55,7 @@ struct Sums {
     result.bias = error / n;
     result.within_one_deviation = double(within) / n;
     result.beyond_training = double(beyond) / n;
+    result.not_settled = double(not_settled) / n;
     return result;
   }
 };
@@ -77,6 +83,7 @@ class Checker {
   void take(const dataset::Recording& recording) {
     Calibrator calibrator(calibration_);
     calibrator.setMask(recording.mask);
+    bags_.push_back({recording.name, {}});
     std::size_t surface = recording.conditions.size();
     dataset::ScanCounts counts(recording);
     for (std::size_t i = 0; i < recording.scans(); ++i) {
@@ -97,6 +104,9 @@ class Checker {
     CalibrationCheck check;
     check.whole = whole_.summary("");
     for (const std::string& name : order_) check.classes.push_back(surfaces_.at(name).summary(name));
+    for (const auto& [name, sums] : bags_) check.bags.push_back(sums.summary(name));
+    for (std::size_t level = 0; level < check.within.size(); ++level)
+      check.within[level] = sizes_.quantile(kIntervalLevels[level]);
     for (std::size_t i = 0; i < taxels_.size(); ++i) {
       const Sums& sums = taxels_[i];
       if (sums.readings >= kLeastReadings && sums.rmse() > options.taxel_ratio * sums.expectedRmse()) {
@@ -132,15 +142,13 @@ class Checker {
   // A reading below those of training has one: at a known pressure it shows that the sheet reads less than it
   // did.
   void add(const std::uint16_t* counts, double pressure, Sums& surface) {
-    constexpr std::uint16_t kBeyond =
-        map::taxel_flag::kReadingExtrapolated | map::taxel_flag::kCurvatureExtrapolated;
     for (std::size_t i = 0; i < taxels_.size(); ++i) {
       const bool no_value = counts[i] == 0 || (map_.flags[i] & map::taxel_flag::kSaturated) != 0;
       if (std::isnan(map_.pressure[i]) || no_value) continue;
       const double error = map_.pressure[i] - pressure;
-      for (Sums* sums : {&whole_, &surface, &taxels_[i]}) {
-        sums->add(error, map_.deviation[i], (map_.flags[i] & kBeyond) != 0);
-      }
+      for (Sums* sums : {&whole_, &surface, &bags_.back().second, &taxels_[i]})
+        sums->add(error, map_.deviation[i], map_.flags[i]);
+      sizes_.add(static_cast<float>(error));
     }
   }
 
@@ -155,6 +163,8 @@ class Checker {
   bool tared_;
   map::PressureMap map_;
   Sums whole_;
+  statistics::ErrorSizes sizes_;                    // of the errors [Pa]
+  std::vector<std::pair<std::string, Sums>> bags_;  // by name
   std::map<std::string, Sums> surfaces_;
   std::vector<std::string> order_;
   std::vector<Sums> taxels_;
@@ -196,6 +206,41 @@ void judgeClass(const CheckedClass& checked, double range, const CalibrationChec
                       settings::percentText(std::abs(checked.bias) / range) +
                       " of the range (allowed: " + settings::percentText(options.bias_share) + ")");
   }
+}
+
+// Readings that are not settled are judged as static answers.
+std::string memoryNotShown(const Calibration& calibration, double not_settled) {
+  std::string text = "the sheet's memory: " + settings::percentText(not_settled) +
+                     " of the readings were not settled and are static answers";
+  const std::vector<HistoryScore::Part>& parts = calibration.scores.history.parts;
+  if (!parts.empty()) {
+    text += ", so that the RMSE that training found with it on left-out protocols (" +
+            kilopascals(parts.front().rmse) + " instead of " + kilopascals(parts.front().static_rmse) +
+            ") was not seen";
+  }
+  return text + "; give a bag that begins at rest, or one with wide changes of load after " +
+         settings::fixedText(std::ceil(calibration.history.settlingTime()), 0) + " s";
+}
+
+// What the calibration promises and the bags cannot show.
+std::vector<std::string> notShown(const Calibration& calibration,
+                                  const std::vector<dataset::Recording>& recordings,
+                                  const CheckedClass& whole) {
+  constexpr double kMost = 0.5;    // of the readings: their RMSE is then that of the others
+  constexpr double kLoaded = 0.9;  // of the trained pressures, as in the coverage of a training
+  std::vector<std::string> sentences;
+  if (calibration.history.present() && whole.not_settled > kMost)
+    sentences.push_back(memoryNotShown(calibration, whole.not_settled));
+  double highest = 0;
+  for (const dataset::Recording& recording : recordings) {
+    for (const double pressure : recording.pressure) highest = std::max(highest, pressure);
+  }
+  if (highest < kLoaded * calibration.trained.pressure.high) {
+    sentences.push_back("pressures of " + settings::fixedText(highest / 1000, 0) + " to " +
+                        settings::fixedText(calibration.trained.pressure.high / 1000, 0) +
+                        " kPa: the bags do not reach them");
+  }
+  return sentences;
 }
 
 }  // namespace
@@ -257,6 +302,8 @@ CalibrationCheck checkCalibration(const Calibration& calibration,
                               ", but the calibration was made with " + calibration.sensor.serial);
     }
   }
+  check.range = calibration.trained.pressure;
+  check.not_shown = notShown(calibration, recordings, check.whole);
   check.still_good = check.reasons.empty();
   return check;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -20,23 +21,31 @@ struct CalibrationCheckOptions {
   double taxel_share = 0.05;   ///< share of suspicious taxels (ratio)
 };
 
-/// Errors of the readings of one curvature class, or of all together.
+/// Errors of the readings of one curvature class or bag, or of all together.
 struct CheckedClass {
-  std::string name;  ///< of the surface; empty = all together
+  std::string name;  ///< of the surface or bag; empty = all together
   std::uint64_t readings = 0;
   double expected_rmse = std::numeric_limits<double>::quiet_NaN();  ///< of held-out readings in training [Pa]
   double rmse = std::numeric_limits<double>::quiet_NaN();           ///< here [Pa]
   double bias = std::numeric_limits<double>::quiet_NaN();           ///< mean error here, map - chamber [Pa]
   double within_one_deviation = std::numeric_limits<double>::quiet_NaN();  ///< of the readings (ratio)
   double beyond_training = std::numeric_limits<double>::quiet_NaN();       ///< of the readings (ratio)
+  /// Of the readings: the sheet's memory was not settled, so that they are static answers (ratio).
+  double not_settled = std::numeric_limits<double>::quiet_NaN();
 };
 
 struct CalibrationCheck {
   bool still_good = false;
   std::vector<std::string> reasons;  ///< why it is not, worst first; empty if it is
   std::vector<std::string> remarks;  ///< other information for the user
+  /// What the calibration promises and these bags cannot show, a sentence each. It is not judged.
+  std::vector<std::string> not_shown;
   CheckedClass whole;
-  std::vector<CheckedClass> classes;     ///< of each surface of the bags, in their order
+  std::vector<CheckedClass> classes;  ///< of each surface of the bags, in their order
+  std::vector<CheckedClass> bags;     ///< of each recording, in their order
+  /// By kIntervalLevels: |error| that this share of all readings does not exceed [Pa].
+  std::array<double, kIntervalLevels.size()> within = {};
+  TrainedInterval range;                 ///< pressures of the training
   std::vector<std::size_t> suspicious;   ///< taxels with much larger errors than in training
   std::vector<std::size_t> dead, stuck;  ///< taxels, as TaxelWatch finds them
   /// Errors of the static answer and with the model of the sheet's memory: all readings, those before the

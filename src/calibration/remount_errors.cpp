@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "calibration/session/session_rests.h"
+
 namespace fsr::calibration {
 
 namespace {
@@ -56,7 +58,7 @@ bool isLoaded(const Peaks& peaks, std::uint32_t mount) {
 RemountErrors::RemountErrors(const std::vector<dataset::Recording>& recordings,
                              const dataset::ConditionClasses& classes,
                              const std::vector<dataset::Sections>& sections, const SessionZeros& zeros)
-    : divided_(sections), mounts_(classes.classes.size()) {
+    : divided_(sections), mounts_(classes.classes.size()), names_(classes.classes.size()) {
   // [classes], from mount number to 0, 1, ...
   std::vector<std::map<std::uint32_t, std::uint32_t>> number(classes.classes.size());
   const std::vector<Peaks> peaks = peaksOf(recordings, classes, sections);
@@ -64,7 +66,9 @@ RemountErrors::RemountErrors(const std::vector<dataset::Recording>& recordings,
     for (std::size_t c = 0; c < recordings[r].conditions.size(); ++c) {
       const std::size_t k = classes.class_of[r][c];
       const std::uint32_t mount = recordings[r].conditions[c].mount;
-      if (isLoaded(peaks[k], mount)) number[k].emplace(mount, static_cast<std::uint32_t>(number[k].size()));
+      if (!isLoaded(peaks[k], mount)) continue;
+      const bool fresh = number[k].emplace(mount, static_cast<std::uint32_t>(number[k].size())).second;
+      if (fresh) names_[k].push_back(Session{r, c, k, 0, {}}.name(recordings));
     }
   }
   for (std::size_t k = 0; k < number.size(); ++k) {
@@ -85,6 +89,7 @@ RemountErrors::RemountErrors(const std::vector<dataset::Recording>& recordings,
   }
   scans_ = gatherScans(recordings, classes, by_mount, zeros);
   errors_.resize(recordings.front().layout.size.taxels());
+  covered_.resize(errors_.size());
 }
 
 bool RemountErrors::leavesOut(const compensation::SchemePlan& plan, std::size_t curvature_class) const {
@@ -135,13 +140,16 @@ std::size_t RemountErrors::units() const {
 
 void RemountErrors::cover(const compensation::SchemePlan& plan, std::size_t taxel,
                           const regression::RegressorOptions& regressor, const Calibration& calibration,
-                          IntervalTally& intervals) const {
+                          IntervalTally& intervals) {
   if (!assessable()) return;
   const compensation::SectionedReadings readings =
       sectionedReadings(scans_, most_mounts_ + 1, calibration.tables.full_scale, taxel, regressor);
   const auto models =
       compensation::crossValidateScheme(plan, taxel, readings, regressor, regression::HeldOutDeviation::kNo);
   IntervalTally::Taxel ratios(intervals);
+  std::vector<Squares>& squares = covered_[taxel];
+  squares.resize(units());
+  statistics::ErrorSizes sizes;
   std::vector<dataset::TaxelCounts> counts = dataset::taxelCounts(*scans_.recordings, taxel);
   std::size_t first = 0;  // unit of the first mount of the class
   for (std::size_t k = 0; k < mounts_.size(); ++k) {
@@ -159,11 +167,39 @@ void RemountErrors::cover(const compensation::SchemePlan& plan, std::size_t taxe
         const double error = answer - regression::fromFixed(scan.pressure);
         ratios.add(first + run.section, answer, scan.direction,
                    std::abs(error) / double(own.deviation[scan.code]));
+        if (!std::isfinite(error)) return;
+        squares[first + run.section].sum += error * error;
+        ++squares[first + run.section].readings;
+        sizes.add(static_cast<float>(error));
       });
     }
     first += mounts_[k];
   }
   intervals.add(taxel, ratios);
+  const std::lock_guard<std::mutex> lock(adding_);
+  sizes_.merge(sizes);
+}
+
+// Sums over the taxels in their order: the result does not depend on the number of threads.
+NewMountErrors RemountErrors::newMount() const {
+  NewMountErrors errors;
+  for (std::size_t level = 0; level < kIntervalLevels.size(); ++level)
+    errors.within[level] = sizes_.quantile(kIntervalLevels[level]);
+  std::size_t unit = 0;
+  for (std::size_t k = 0; k < mounts_.size(); ++k) {
+    if (mounts_[k] < 2) continue;
+    for (std::size_t mount = 0; mount < mounts_[k]; ++mount, ++unit) {
+      Squares all;
+      for (const std::vector<Squares>& taxel : covered_) {
+        if (taxel.empty()) continue;
+        all.sum += taxel[unit].sum;
+        all.readings += taxel[unit].readings;
+      }
+      if (all.readings > 0)
+        errors.mounts.push_back({names_[k][mount], std::sqrt(all.sum / static_cast<double>(all.readings))});
+    }
+  }
+  return errors;
 }
 
 }  // namespace fsr::calibration

@@ -1,13 +1,17 @@
 #pragma once
 
 #include <cstddef>
+#include <mutex>
+#include <string>
 #include <vector>
 
 #include "calibration/budget/interval_tally.h"
+#include "calibration/budget/new_mount_line.h"
 #include "calibration/training_scans.h"
 #include "compensation/fit_scheme.h"
 #include "compensation/unseen_curvature.h"
 #include "fsr_pressure_map/calibration/calibration.h"
+#include "statistics/error_bins.h"
 
 namespace fsr::calibration {
 
@@ -37,19 +41,30 @@ class RemountErrors {
   /// after apply(). Trains as measure() does. Different taxels may be counted at the same time.
   void cover(const compensation::SchemePlan& plan, std::size_t taxel,
              const regression::RegressorOptions& regressor, const Calibration& calibration,
-             IntervalTally& intervals) const;
+             IntervalTally& intervals);
+  /// After cover() of all taxels.
+  NewMountErrors newMount() const;
 
  private:
   // Whether the mounts of a class are left out: there are several, and its model was trained on the class.
   bool leavesOut(const compensation::SchemePlan& plan, std::size_t curvature_class) const;
 
   const std::vector<dataset::Sections>& divided_;
-  std::vector<std::size_t> mounts_;  // [classes], number of mounts
+  std::vector<std::size_t> mounts_;              // [classes], number of mounts
+  std::vector<std::vector<std::string>> names_;  // [classes][mounts]
   std::size_t most_mounts_ = 1;
   /// The section of a scan is its mount. Scans of a surface with one mount are in the last section, which is
   /// never left out.
   TrainingScans scans_;
   std::vector<compensation::UnseenErrors> errors_;  // [taxels]
+
+  struct Squares {
+    double sum = 0;  // of the errors [Pa^2]
+    std::uint64_t readings = 0;
+  };
+  std::vector<std::vector<Squares>> covered_;  // [taxels][units]
+  std::mutex adding_;
+  statistics::ErrorSizes sizes_;  // of the errors of all units [Pa]
 };
 
 }  // namespace fsr::calibration

@@ -4,6 +4,7 @@
 #include <iomanip>
 #include <sstream>
 
+#include "report/good_for.h"
 #include "report/history_report.h"
 #include "settings/number_text.h"
 
@@ -40,8 +41,10 @@ std::string checkText(const calibration::CalibrationCheck& check) {
   addRow(check.whole, width, out);
   out << historyTable(check.history);
   for (const std::string& remark : check.remarks) out << "Note: " << remark << '\n';
+  for (const std::string& sentence : check.not_shown) out << "Not shown: " << sentence << '\n';
+  out << goodForText(check) << '\n';
   if (check.still_good) {
-    out << "Still good.\n";
+    out << (check.not_shown.empty() ? "Still good.\n" : "Still good as far as these bags show.\n");
     return out.str();
   }
   out << "Recalibrate, because";

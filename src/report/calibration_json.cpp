@@ -1,6 +1,7 @@
 #include "regression/option_names.h"
 #include "report/budget_report.h"
 #include "report/calibration_report.h"
+#include "report/good_for.h"
 #include "report/history_report.h"
 #include "report/result_json.h"
 #include "report/session_report.h"
@@ -115,6 +116,7 @@ std::string calibrationJson(const calibration::Calibration& calibration) {
   const matrix::Layout& layout = calibration.layout;
   const calibration::TrainedRanges& trained = calibration.trained;
   const Json document = {{"id", calibration.id},
+                         {"good_for", goodForText(calibration)},
                          {"scheme", compensation::schemeName(calibration.tables.scheme)},
                          {"model", model(calibration)},
                          {"scheme_in_paper", compensation::schemeInPaper(calibration.tables.scheme)},

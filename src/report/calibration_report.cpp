@@ -144,10 +144,7 @@ std::string scoresText(const calibration::CalibrationScores& scores, const matri
   forEachRow(scores,
              [&](const std::string& name, const calibration::Score& score) { binRow(out, name, score); });
   const auto untrained = [](const calibration::ConditionScore& condition) { return !condition.trained; };
-  if (scores.unseen.readings > 0) {
-    out << "Curvature not used for training (each inner surface left out in turn): RMSE "
-        << kilopascal(scores.unseen.rmse) << " kPa, " << spread(scores.unseen.rmse_percent, 2) << " %\n";
-  }
+  out << unseenText(scores.unseen);
   if (scores.remount.readings > 0) {
     out << "Another mount (each mount left out in turn; part of the stated deviation): RMSE "
         << kilopascal(scores.remount.rmse) << " kPa, " << spread(scores.remount.rmse_percent, 2) << " %\n";
@@ -160,6 +157,12 @@ std::string scoresText(const calibration::CalibrationScores& scores, const matri
     out << "* the model used for this surface was not trained on it\n";
   }
   return out.str();
+}
+
+std::string unseenText(const calibration::UnseenScore& score) {
+  if (score.readings == 0) return "";
+  return "Curvature not used for training (each inner surface left out in turn): RMSE " +
+         kilopascal(score.rmse) + " kPa, " + spread(score.rmse_percent, 2) + " %\n";
 }
 
 std::string warningsText(const calibration::Calibration& calibration) {

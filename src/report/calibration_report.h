@@ -17,6 +17,9 @@ std::string coverageText(const dataset::Coverage& coverage);
 /// bin and direction. One sentence if there are no scores. The worst taxel is named by row and column.
 std::string scoresText(const calibration::CalibrationScores& scores, const matrix::Layout& layout);
 
+/// The error on a curvature that was not used for training, in one line; "" if it was not assessed.
+std::string unseenText(const calibration::UnseenScore& score);
+
 /// Warnings, one a line; "" if there are none.
 std::string warningsText(const calibration::Calibration& calibration);
 

@@ -152,6 +152,29 @@ TEST(HistoryCheck, StatesPartsAndWhatWasNotSettled) {
   EXPECT_TRUE(checkCalibration(trained(rig, {false, HistoryFamily::kNone}), {another(rig)}).history.empty());
 }
 
+// A bag that begins under load and ends before the memory of the sheet is known.
+TEST(HistoryCheck, SaysWhichPromiseItCannotSee) {
+  const MemoryRig rig = rigWith(0.08, 0);
+  const Calibration calibration = trained(rig);
+  EXPECT_TRUE(checkCalibration(calibration, {another(rig)}).not_shown.empty());
+  dataset::Recording held = another(rig);
+  const std::size_t scans = 40;  // from 6 s on: 120 to 200 kPa of 600
+  held.time.assign(held.time.begin() + 60, held.time.begin() + 60 + scans);
+  held.pressure.assign(held.pressure.begin() + 60, held.pressure.begin() + 60 + scans);
+  held.condition.assign(held.condition.begin() + 60, held.condition.begin() + 60 + scans);
+  const auto first = held.counts.begin() + 60 * 3;
+  const std::vector<std::uint16_t> counts(first, first + 3 * static_cast<std::ptrdiff_t>(scans));
+  held.counts = counts;
+  const CalibrationCheck check = checkCalibration(calibration, {held});
+  ASSERT_EQ(check.not_shown.size(), 2u);
+  EXPECT_EQ(check.whole.not_settled, 1);
+  EXPECT_EQ(check.not_shown[0].find("the sheet's memory: 100.0 % of the readings were not settled and are "
+                                    "static answers, so that the RMSE that training found with it"),
+            0u)
+      << check.not_shown[0];
+  EXPECT_EQ(check.not_shown[1].find("pressures of "), 0u) << check.not_shown[1];
+}
+
 class HistoryFile : public testing::Test {
  protected:
   ~HistoryFile() override { std::remove(path_.c_str()); }

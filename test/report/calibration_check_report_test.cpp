@@ -43,4 +43,13 @@ TEST(CalibrationCheckReport, OfASurfaceWithoutReadingsHasDashes) {
   EXPECT_FALSE(contains(checkText(check), "nan"));
 }
 
+TEST(CalibrationCheckReport, SaysWhatTheBagsDoNotShow) {
+  EXPECT_TRUE(contains(checkText(example()), "\nStill good.\n"));
+  CalibrationCheck check = example();
+  check.not_shown = {"the sheet's memory: 100.0 % of the readings were not settled"};
+  EXPECT_TRUE(contains(checkText(check), "\nNot shown: the sheet's memory: 100.0 %"));
+  EXPECT_TRUE(contains(checkText(check), "\nStill good as far as these bags show.\n"));
+  EXPECT_FALSE(contains(checkText(check), "Still good.\n"));
+}
+
 }  // namespace

@@ -18,9 +18,9 @@
 #include "report/budget_report.h"
 #include "report/calibration_check_report.h"
 #include "report/calibration_report.h"
-#include "report/history_report.h"
+#include "report/good_for.h"
 #include "report/recheck_report.h"
-#include "report/session_report.h"
+#include "report/training_summary.h"
 #include "ros/bags/bag_topics.h"
 #include "ros/bags/bag_walk.h"
 #include "ros/tools/bag_options.h"
@@ -99,6 +99,7 @@ fsr::settings::CommandLine options() {
       .option("threads", "N",
               "number of threads; default: one for each core; the results do not depend on it")
       .flag("no-scores", "do not compute the cross-validated scores")
+      .flag("details", "print all tables of the training, not one screen; the file holds them in any case")
       .output("report", "FILE", "also write coverage, scores and provenance as JSON");
   return line;
 }
@@ -282,20 +283,20 @@ fsr::calibration::Calibration train(const fsr::settings::CommandLine& line, std:
   const fsr::calibration::CalibrationOptions chosen = calibrationOptions(line, out);
   const fsr::calibration::CalibrationProblem problem{readBags(line), chosen};
   fsr::calibration::validate(problem);
-  out << fsr::report::coverageText(fsr::dataset::coverageOf(problem.recordings, chosen.folds)) << std::endl;
+  const bool details = line.has("details");
+  if (details) {
+    out << fsr::report::coverageText(fsr::dataset::coverageOf(problem.recordings, chosen.folds)) << std::endl;
+  }
   fsr::calibration::Calibration calibration = fsr::calibration::calibrate(problem, toolProgress());
   // The events in the bags tell more than the recordings alone.
   const std::vector<fsr::dataset::Conditioning> conditioning =
       fsr::dataset::findConditioning(problem.recordings, conditioningSaid(line.files()));
   calibration.provenance.conditioning = fsr::dataset::conditioningSentences(conditioning);
   fsr::calibration::restateConditioning(conditioning, calibration.budget);
-  for (const std::string& sentence : calibration.provenance.conditioning) out << "Note: " << sentence << '\n';
-  out << fsr::report::warningsText(calibration)
-      << fsr::report::scoresText(calibration.scores, calibration.layout)
-      << fsr::report::sessionText(calibration.scores.session) << fsr::report::temperatureText(calibration)
-      << fsr::report::historyText(calibration) << fsr::report::learnedText(calibration);
-  if (calibration.budget.present())
-    out << '\n' << fsr::report::budgetText(calibration.budget, calibration.layout);
+  out << (details
+              ? fsr::report::trainingDetails(calibration)
+              : fsr::report::trainingSummary(calibration) +
+                    "All tables: --details; the file holds them, and train --budget prints its budget.\n");
   return calibration;
 }
 
@@ -319,12 +320,12 @@ int trainTool(int argc, const char* const* argv, std::ostream& out) {
   requireOutputs(output, report);
 
   fsr::calibration::Calibration calibration = line.has("merge") ? merge(line, out) : train(line, out);
-  out << std::endl;
   calibration.id = fsr::calibration::saveCalibration(calibration, output);
   if (!report.empty()) fsr::settings::replaceFile(report, fsr::report::calibrationJson(calibration));
   out << "Calibration " << calibration.id << " (" << fsr::compensation::schemeName(calibration.tables.scheme)
       << ", " << fsr::report::modelText(calibration) << ") written to " << fullPath(output) << std::endl;
   if (!report.empty()) out << "Report written to " << fullPath(report) << std::endl;
+  if (!line.has("merge")) out << fsr::report::goodForText(calibration) << std::endl;
   return 0;
 }
 

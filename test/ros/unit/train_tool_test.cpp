@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -65,7 +66,7 @@ class TrainTool : public testing::Test {
 TEST_F(TrainTool, PrintsCoverageThenScoresThenThePath) {
   const std::string flat = record("flat.bag", {"flat", 0.0});
   const std::string output = (folder_ / "calibration.h5").string();
-  const std::string text = run({flat, bend_, "--output", output});
+  const std::string text = run({flat, bend_, "--output", output, "--details"});
   const fsr::calibration::Calibration calibration = fsr::calibration::loadCalibration(output);
   const std::size_t coverage = text.find("Coverage"), scores = text.find("Held-out readings");
   const std::size_t path = text.find("Calibration " + calibration.id + " (interpolated, grnn, bandwidth ");
@@ -96,9 +97,31 @@ TEST_F(TrainTool, TakesItsOptions) {
   EXPECT_EQ(calibration.provenance.seed, 7u);
   EXPECT_NEAR(calibration.trained.pressure.low, 1325.0, 1e-6);  // the bag's ambient is 101325
   EXPECT_TRUE(calibration.scores.conditions.empty());
-  EXPECT_NE(text.find("Scores were not computed."), std::string::npos);
+  EXPECT_NE(text.find("Good for: not known, because scores were not computed"), std::string::npos);
   EXPECT_TRUE(fs::exists(report));
   EXPECT_NE(text.find("Report written to " + report + "\n"), std::string::npos);
+}
+
+TEST_F(TrainTool, FitsOnAScreenAndEndsWithWhatTheMapIsGoodFor) {
+  const std::string flat = record("flat.bag", {"flat", 0.0});
+  const std::string output = (folder_ / "calibration.h5").string();
+  const std::string report = (folder_ / "report.json").string();
+  const std::string text = run({flat, bend_, "--output", output, "--report", report});
+  EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 30) << text;
+  const std::size_t last = text.rfind('\n', text.size() - 2) + 1;
+  EXPECT_EQ(
+      text.find("Good for: not known on a new mount, because no surface was mounted more than once; 95 % "),
+      last)
+      << text;
+  EXPECT_NE(text.find("\ncylinder_7cm "), std::string::npos) << text;
+  EXPECT_EQ(text.find("Error budget [kPa]"), std::string::npos) << text;
+  std::ifstream file(report);
+  const std::string json{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_NE(json.find("\"good_for\": \"Good for: not known on a new mount"), std::string::npos);
+  const std::string checked = run({"--check", output, flat, bend_});
+  EXPECT_NE(checked.find("\nGood for: 68 % of the readings of these bags err by at most "), std::string::npos)
+      << checked;
+  EXPECT_NE(checked.find("; worst bag: "), std::string::npos) << checked;
 }
 
 TEST_F(TrainTool, TrainsEverySchemeByItsName) {
@@ -152,7 +175,7 @@ TEST_F(TrainTool, TakesTheTemperatureOut) {
   }
   const std::string bag = (folder_ / "warm.bag").string(), output = (folder_ / "c.h5").string();
   writeBag(bag, recording);
-  const std::string text = run({bag, "--output", output});
+  const std::string text = run({bag, "--output", output, "--details"});
   EXPECT_NE(text.find("Temperature: -0.4"), std::string::npos) << text;
   EXPECT_NE(text.find(" % a kelvin with a lag of 0 s; it wins"), std::string::npos) << text;
   EXPECT_NE(text.find("without temperature"), std::string::npos) << text;
@@ -182,7 +205,7 @@ TEST_F(TrainTool, TakesTheSheetsMemoryOut) {
   const std::string verdict = (folder_ / "verdict.yaml").string();
   writeBag(bag, recording);
   const auto chosen = [&](const std::vector<std::string>& words) {
-    std::vector<std::string> all = {bag, "--output", output};
+    std::vector<std::string> all = {bag, "--output", output, "--details"};
     all.insert(all.end(), words.begin(), words.end());
     const std::string text = run(all);
     return text.substr(std::min(text.size(), text.find("History: ")));
@@ -220,7 +243,7 @@ TEST_F(TrainTool, ExpectsATareAtTheStartOfASession) {
   const std::string fresh = words.back(), output = (folder_ / "c.h5").string();
   const std::string report = (folder_ / "report.json").string();
   words.back() = "--history=none";
-  words.insert(words.end(), {"--output", output, "--report", report});
+  words.insert(words.end(), {"--output", output, "--report", report, "--details"});
   const std::string text = run(words);
   EXPECT_NE(
       text.find("Tare at the start of a session: expected, since it wins on sessions that were left out"),
@@ -296,7 +319,7 @@ TEST_F(TrainTool, AFailureOverwritesNothing) {
 
 TEST_F(TrainTool, PrintsTheErrorBudgetOfAFileAgain) {
   const std::string output = (folder_ / "calibration.h5").string();
-  const std::string trained = run({bend_, "--output", output, "--transducer", "1500"});
+  const std::string trained = run({bend_, "--output", output, "--transducer", "1500", "--details"});
   const std::string again = run({"--budget", output});
   const std::size_t start = again.find("Error budget [kPa]");
   EXPECT_NE(again.find("sheet was not conditioned"), std::string::npos) << again;
