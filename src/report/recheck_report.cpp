@@ -94,8 +94,9 @@ std::string mountsText(const calibration::MountTest& test) {
 std::string recheckText(const calibration::Recheck& recheck) {
   const calibration::CorrectionChoice& choice = recheck.choice;
   std::ostringstream out;
-  out << recheck.cycles << " cycles on " << listed(recheck.surfaces) << "; expected RMSE "
-      << kilopascals(choice.expected) << "\nRMSE on cycles that were left out:";
+  out << recheck.cycles << " cycles on " << listed(recheck.surfaces) << "; expected RMSE of the map "
+      << kilopascals(recheck.expected) << ", of the tables alone " << kilopascals(choice.expected)
+      << "\nRMSE of the tables alone on cycles that were left out:";
   for (std::size_t m = 0; m < calibration::kChangeModels; ++m) {
     out << (m == 0 ? " without correction " : ", ")
         << (m == 0 ? "" : modelName(static_cast<ChangeModel>(m)) + " ") << kilopascals(choice.rmse[m]);
@@ -135,7 +136,8 @@ std::string recheckJson(const calibration::Recheck& recheck, const std::string& 
                          {"gain", gain},
                          {"offset_counts", offset},
                          {"rmse_pa",
-                          {{"expected", choice.expected},
+                          {{"expected_of_map", recheck.expected},
+                           {"expected", choice.expected},
                            {"none", choice.rmse[0]},
                            {"whole_sheet", choice.rmse[1]},
                            {"by_taxel", choice.rmse[2]},

@@ -215,6 +215,9 @@ Recheck recheckCalibration(const Calibration& parent, const std::vector<dataset:
   if (why_not.empty()) makeChild(parent, recordings, options, recheck);
   const std::vector<std::string> faults =
       faultsOf(recheck.child ? *recheck.child : parent, recordings, options, recheck);
+  const CalibrationCheck of_parent =
+      recheck.child ? checkCalibration(parent, recordings, options.check) : recheck.check;
+  recheck.expected = of_parent.whole.expected_rmse;
   const bool explained = !faults.empty() && mountsMayExplain(parent, fit, options, recheck);
   if (!faults.empty() && !explained) {
     recalibrate(faults, recheck);

@@ -43,6 +43,9 @@ struct Recheck {
   std::vector<std::string> reasons;  ///< sentences: why this verdict
   std::vector<std::string> remarks;  ///< other information for the user
   CorrectionChoice choice;
+  /// RMSE that the map of the parent lets expect on these recordings, as checkCalibration() says [Pa]. That
+  /// of the tables alone, which a correction moves, is CorrectionChoice::expected.
+  double expected = 0;
   std::size_t cycles = 0;
   std::vector<std::string> surfaces;
   /// Whether mounts alone do as much; absent where the sheet was not taken out, or no correction wins.

@@ -9,6 +9,7 @@
 #include "compensation/shape/learn_shape.h"
 #include "compensation/shape/read_shape.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "settings/number_text.h"
 
 namespace fsr::calibration {
 
@@ -114,9 +115,14 @@ class ShapeTraining {
     }
     model_.scatter = compensation::learnScatter(rests, places);
     if (model_.scatter.contrasts < kLeastContrasts) {
-      model_.missing = "the scatter between mounts is not known: the bags hold " +
-                       std::to_string(model_.scatter.contrasts) +
-                       " further mounts of a surface, but three are needed; mount surfaces again";
+      model_.missing =
+          "the scatter between mounts is not known: " + std::to_string(model_.scatter.contrasts) +
+          " further mounts of a surface can be used, but three are needed; mount surfaces again";
+      for (std::size_t g = 0; g < rests.size(); ++g) {
+        if (rests[g].zero_share > compensation::kMostZeros && rests[g].pressure.rows() > 1)
+          model_.missing += "; not used: " + model_.surfaces[g] + ", where " +
+                            settings::percentText(rests[g].zero_share) + " of the readings at rest are 0";
+      }
       return;
     }
     learnHistory();

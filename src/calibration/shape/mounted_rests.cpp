@@ -38,6 +38,21 @@ bool unloaded(const dataset::Recording& recording, const std::vector<std::size_t
   });
 }
 
+// By curvature class and mount number.
+using SessionsByMount = std::map<std::pair<std::size_t, std::uint32_t>, std::vector<const Session*>>;
+
+// Those that start at rest, or those that do not.
+SessionsByMount sessionsByMount(const std::vector<dataset::Recording>& recordings, const Sessions& sessions,
+                                bool at_rest) {
+  SessionsByMount by_mount;
+  for (const Session& session : sessions.all) {
+    const matrix::Surface& surface = recordings[session.recording].conditions[session.condition];
+    if (unloaded(recordings[session.recording], session.rest) == at_rest)
+      by_mount[{session.curvature_class, surface.mount}].push_back(&session);
+  }
+  return by_mount;
+}
+
 // Mean over the scans [degree Celsius]; NaN = not recorded.
 double temperatureAt(const dataset::Recording& recording, const std::vector<std::size_t>& scans) {
   if (recording.temperature.empty()) return kNaN;
@@ -77,12 +92,7 @@ compensation::RestReading readingAtRest(const dataset::Recording& recording,
 
 std::vector<MountedRest> mountedRests(const std::vector<dataset::Recording>& recordings,
                                       const Sessions& sessions) {
-  std::map<std::pair<std::size_t, std::uint32_t>, std::vector<const Session*>> by_mount;
-  for (const Session& session : sessions.all) {
-    const matrix::Surface& surface = recordings[session.recording].conditions[session.condition];
-    if (unloaded(recordings[session.recording], session.rest))
-      by_mount[{session.curvature_class, surface.mount}].push_back(&session);
-  }
+  const SessionsByMount by_mount = sessionsByMount(recordings, sessions, true);
   std::vector<MountedRest> mounts;
   for (const auto& [key, members] : by_mount) {
     std::vector<compensation::RestReading> readings;
@@ -103,6 +113,16 @@ std::vector<MountedRest> mountedRests(const std::vector<dataset::Recording>& rec
     mounts.push_back(std::move(mount));
   }
   return mounts;
+}
+
+std::vector<std::string> mountsWithoutRest(const std::vector<dataset::Recording>& recordings,
+                                           const Sessions& sessions) {
+  const SessionsByMount with = sessionsByMount(recordings, sessions, true);
+  std::vector<std::string> names;
+  for (const auto& [key, members] : sessionsByMount(recordings, sessions, false)) {
+    if (with.count(key) == 0) names.push_back(members.front()->name(recordings));
+  }
+  return names;
 }
 
 }  // namespace fsr::calibration

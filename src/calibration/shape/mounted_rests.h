@@ -32,4 +32,8 @@ struct MountedRest {
 std::vector<MountedRest> mountedRests(const std::vector<dataset::Recording>& recordings,
                                       const Sessions& sessions);
 
+/// The names of the other mounts: none of their bags starts with a rest at ambient pressure.
+std::vector<std::string> mountsWithoutRest(const std::vector<dataset::Recording>& recordings,
+                                           const Sessions& sessions);
+
 }  // namespace fsr::calibration

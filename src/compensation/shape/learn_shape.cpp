@@ -11,8 +11,6 @@ namespace fsr::compensation {
 
 namespace {
 
-constexpr double kMostZeros =
-    0.02;                         // share of readings that are 0 on a surface that the scatter is learnt from
 constexpr double kRidge = 1e-12;  // keeps covariances definite, relative to the variance
 // A few surfaces do not tell lengths well: each is drawn to this share of the range, by a factor of e.
 constexpr double kUnitsOfSpan = 7;

@@ -14,9 +14,13 @@ struct SurfaceRests {
   double zero_share = 0;     ///< share of the readings that are 0
 };
 
+/// Surfaces with a larger share of readings that are 0 say little of how mounts differ: where readings are
+/// cut, mounts look alike.
+constexpr double kMostZeros = 0.02;
+
 /// Learns how much mounts of one surface differ, by maximum likelihood on the differences between mounts
 /// (restricted likelihood; H. D. Patterson, R. Thompson, Biometrika 58, 1971). Surfaces on which more than
-/// a fiftieth of the readings are 0 are left out. `contrasts` of the result is 0 if nothing can be learnt.
+/// kMostZeros of the readings are 0 are left out. `contrasts` of the result is 0 if nothing can be learnt.
 MountScatter learnScatter(const std::vector<SurfaceRests>& surfaces,
                           const std::vector<matrix::Position>& places);
 

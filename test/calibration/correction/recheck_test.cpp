@@ -75,6 +75,19 @@ Recheck recheck(const Change& change, unsigned seed = 2, bool bent = false) {
       parent(), {changed(syntheticRecording(rig(seed, bent)), change)}, sameMount());
 }
 
+// One bag, one file, one expected error.
+TEST(Recheck, StatesTheExpectedErrorOfTrainCheck) {
+  const std::vector<Recording> recordings = {syntheticRecording(rig(2, false))};
+  const double checked = fsr::calibration::checkCalibration(parent(), recordings).whole.expected_rmse;
+  EXPECT_DOUBLE_EQ(fsr::calibration::recheckCalibration(parent(), recordings, sameMount()).expected, checked);
+  const Change worn = [](double reading, std::size_t) { return 0.9 * reading + 30; };
+  const std::vector<Recording> other = {changed(recordings.front(), worn)};
+  const Recheck corrected = fsr::calibration::recheckCalibration(parent(), other, sameMount());
+  ASSERT_EQ(corrected.verdict, RecheckVerdict::kCorrected);
+  EXPECT_DOUBLE_EQ(corrected.expected,
+                   fsr::calibration::checkCalibration(parent(), other).whole.expected_rmse);
+}
+
 // Flat on mounts that read `gains` as much; numbers 2, 3, ...
 std::vector<Recording> mounts(const std::vector<double>& gains, const Change& change) {
   std::vector<Recording> recordings;

@@ -152,7 +152,7 @@ TEST(ShapeTraining, SaysWhatIsMissing) {
   Rig once;
   once.mounts = 1;
   EXPECT_EQ(missing(recordingsOf(once)),
-            "the scatter between mounts is not known: the bags hold 0 further mounts of a surface, but three "
+            "the scatter between mounts is not known: 0 further mounts of a surface can be used, but three "
             "are needed; mount surfaces again");
   Rig small;
   small.rows = 1;
@@ -162,6 +162,23 @@ TEST(ShapeTraining, SaysWhatIsMissing) {
   Recordings loaded = recordingsOf({});
   for (dataset::Recording& recording : loaded) recording.pressure.front() += 50e3;
   EXPECT_EQ(missing(loaded).find("the bags hold a rest before the first load on 0 surfaces"), 0u);
+}
+
+// Five surfaces on two mounts each: five further mounts, of which three do not begin at rest.
+TEST(ShapeTraining, SaysWhyMountsOfTheBagsDoNotCount) {
+  Rig twice;
+  twice.mounts = 2;
+  Recordings recordings = recordingsOf(twice);
+  for (const std::size_t bag : {5u, 6u, 7u}) recordings[bag].pressure.front() += 50e3;
+  const std::string sentence = missing(recordings);
+  EXPECT_EQ(
+      sentence.find("the scatter between mounts is not known: 2 further mounts of a surface can be used, "
+                    "but three are needed; mount surfaces again; without a rest before the first load: " +
+                    recordings[5].name + ", flat, mount "),
+      0u)
+      << sentence;
+  EXPECT_NE(sentence.find("; " + recordings[7].name + ", cylinder_11cm, mount "), std::string::npos)
+      << sentence;
 }
 
 // A surface whose curvature changes along the sheet belongs to none of the surfaces of one curvature, even

@@ -352,6 +352,8 @@ TEST_F(TrainTool, CorrectsAWornSheetOnce) {
   run({bend_, "--output", output, "--no-scores", "--bandwidth", "0.05"});
   const std::string good = run({"--correct", output, bend_, "--output", child});
   EXPECT_NE(good.find("Still good: "), std::string::npos) << good;
+  EXPECT_NE(good.find("; expected RMSE of the map "), std::string::npos) << good;
+  EXPECT_NE(good.find(" kPa, of the tables alone "), std::string::npos) << good;
   EXPECT_NE(good.find("No calibration was written to " + child), std::string::npos) << good;
   EXPECT_FALSE(fs::exists(child));
   test_support::SyntheticRig rig;
