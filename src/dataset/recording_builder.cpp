@@ -8,6 +8,7 @@
 
 #include "dataset/count_file.h"
 #include "dataset/reference_spikes.h"
+#include "dataset/unsound/contradictions.h"
 #include "fsr_pressure_map/settings/input_error.h"
 
 namespace fsr::dataset {
@@ -264,7 +265,7 @@ void RecordingBuilder::dropUnsound(const std::vector<ScanEvent>& scans, std::vec
   std::sort(ends.begin(), ends.end(), [](const AttemptEnd& a, const AttemptEnd& b) {
     return std::tie(a.stamp_ns, a.reason) < std::tie(b.stamp_ns, b.reason);
   });
-  const std::vector<UnsoundSpan> spans = rejectedSpans(course, ends);
+  const std::vector<UnsoundSpan> spans = unsoundSpans(course, ends);
   if (spans.empty()) return;
   std::vector<bool> sound(kept.size(), true);
   for (const UnsoundSpan& span : spans) {

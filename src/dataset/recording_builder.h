@@ -45,7 +45,8 @@ constexpr double kStandardAmbient = 101325.0;  // [Pa]
 /// Events are sorted by their own stamps. Of scans with the same stamp one is kept. The chamber pressure is
 /// interpolated to the scans; gauge = absolute - ambient. A surface is valid from its stamp to the next
 /// surface's, the first one also before its stamp. Scans close to a change of surface are dropped, and so are
-/// those that are not the sheet under the recorded pressure (unsound/unsound_spans.h). Receive times are not used.
+/// those that are not the sheet under the recorded pressure (unsound/unsound_spans.h). Receive times are not
+/// used.
 class RecordingBuilder {
  public:
   /// Numbers of events that were added.
@@ -98,7 +99,8 @@ class RecordingBuilder {
   };
   using DescriptionEvent = std::pair<std::int64_t, MatrixDescription>;
 
-  // Drops the scans of `kept` that are not the sheet under the pressure at them. `kept`: indices into `scans`.
+  // Drops the scans of `kept` that are not the sheet under the pressure at them. `kept`: indices into
+  // `scans`.
   void dropUnsound(const std::vector<ScanEvent>& scans, std::vector<std::size_t>& kept,
                    Recording& recording) const;
   // Calls keep(number in counts_) for each scan that is kept, in order of time, and returns the recording

@@ -69,9 +69,9 @@ std::vector<double> rates(const std::vector<double>& values, std::size_t span) {
 
 // Half of the span over which rates are taken [steps]: long beside the noise of single readings, short beside
 // a cycle.
-std::size_t halfSpan(const Recording& recording, double step) {
-  const auto cycles = static_cast<double>(std::max<std::size_t>(1, findCycles(recording.pressure).count()));
-  const double cycle = (recording.time.back() - recording.time.front()) / cycles;
+std::size_t halfSpan(const std::vector<double>& time, const std::vector<double>& pressure, double step) {
+  const auto cycles = static_cast<double>(std::max<std::size_t>(1, findCycles(pressure).count()));
+  const double cycle = (time.back() - time.front()) / cycles;
   return static_cast<std::size_t>(
       std::max(1.0, std::round(std::min(kLongestSpan, kSpanOfCycle * cycle) / 2 / step)));
 }
@@ -93,10 +93,17 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b, s
 
 std::optional<ReferenceLag> referenceLag(const Recording& recording, const ReferenceLagOptions& options) {
   if (recording.pressure.size() != recording.scans() || recording.scans() < kLeastScans) return std::nullopt;
-  const double step = usualStep(recording.time);
-  const std::size_t span = halfSpan(recording, step);
-  const std::vector<double> matrix = rates(evenly(recording.time, medianReadings(recording), step), span);
-  const std::vector<double> chamber = rates(evenly(recording.time, recording.pressure, step), span);
+  return referenceLag(recording.time, medianReadings(recording), recording.pressure, options);
+}
+
+std::optional<ReferenceLag> referenceLag(const std::vector<double>& time, const std::vector<double>& reading,
+                                         const std::vector<double>& pressure,
+                                         const ReferenceLagOptions& options) {
+  if (time.size() < kLeastScans) return std::nullopt;
+  const double step = usualStep(time);
+  const std::size_t span = halfSpan(time, pressure, step);
+  const std::vector<double> matrix = rates(evenly(time, reading, step), span);
+  const std::vector<double> chamber = rates(evenly(time, pressure, step), span);
   const auto most = std::min(static_cast<std::ptrdiff_t>(std::ceil(options.longest / step)),
                              static_cast<std::ptrdiff_t>(matrix.size() / 3));
   std::vector<double> fits;

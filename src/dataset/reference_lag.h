@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "fsr_pressure_map/dataset/recording.h"
 
@@ -23,5 +24,9 @@ struct ReferenceLag {
 /// because the sheet turns later than its load. Rates are compared instead of values, because hysteresis does
 /// not move the corners of a curve. Gaps are bridged by straight lines.
 std::optional<ReferenceLag> referenceLag(const Recording& recording, const ReferenceLagOptions& options = {});
+/// The same of a sheet whose reading is known at each time [s].
+std::optional<ReferenceLag> referenceLag(const std::vector<double>& time, const std::vector<double>& reading,
+                                         const std::vector<double>& pressure,
+                                         const ReferenceLagOptions& options = {});
 
 }  // namespace fsr::dataset

@@ -17,8 +17,7 @@ constexpr std::size_t kListed = 5;      // spans that are named one by one
 // The reading up to which the sheet is at rest on each surface: a bent sheet has another one than a flat one.
 std::map<std::uint32_t, double> restReadings(const ScanCourse& course) {
   std::map<std::uint32_t, std::vector<double>> readings;
-  for (std::size_t i = 0; i < course.scans(); ++i)
-    readings[course.condition[i]].push_back(course.reading[i]);
+  for (std::size_t i = 0; i < course.scans(); ++i) readings[course.condition[i]].push_back(course.reading[i]);
   std::map<std::uint32_t, double> rest;
   for (auto& [condition, values] : readings) {
     std::sort(values.begin(), values.end());
@@ -47,8 +46,7 @@ std::vector<UnsoundSpan> rejectedSpans(const ScanCourse& course, const std::vect
   for (std::size_t e = 0; e < ends.size(); ++e) {
     if (!misleads(ends[e])) continue;
     const std::size_t least = e == 0 ? 0 : firstAfter(course, ends[e - 1].stamp_ns);
-    const std::size_t most =
-        e + 1 == ends.size() ? course.scans() : firstAfter(course, ends[e + 1].stamp_ns);
+    const std::size_t most = e + 1 == ends.size() ? course.scans() : firstAfter(course, ends[e + 1].stamp_ns);
     UnsoundSpan span;
     span.first = span.end = firstAfter(course, ends[e].stamp_ns);
     // Some attempts are judged when the chamber is at rest again.

@@ -10,7 +10,8 @@ namespace {
 
 constexpr std::int64_t kScan = 100'000'000;  // from one scan to the next [ns]
 
-// Cycles of 20 s to 600 kPa at 10 Hz, 5 s of rest before and after each; the sheet reads the root of the pressure.
+// Cycles of 20 s to 600 kPa at 10 Hz, 5 s of rest before and after each; the sheet reads the root of the
+// pressure.
 ScanCourse cycles(std::size_t number, std::uint32_t condition = 0, double preload = 0) {
   ScanCourse course;
   for (std::size_t i = 0; i < 300 * number; ++i) {

@@ -54,8 +54,8 @@ class UnsoundSpans : public testing::Test {
     using Tool = int (*)(int, const char* const*, std::ostream&);
     std::ofstream(path("plan.yaml"))
         << "study: quick\nforest: {trees: 5}\nresamples: 99\nbandwidths: [0.0078125, 0.0625]\n";
-    fsr::simulation::SimulationSettings settings = fsr::simulation::readSimulationFile(
-        test_support::sourceDir() + "/config/simulation/core.yaml");
+    fsr::simulation::SimulationSettings settings =
+        fsr::simulation::readSimulationFile(test_support::sourceDir() + "/config/simulation/core.yaml");
     settings.layout = recording_.layout;
     std::ofstream(path("small.yaml")) << fsr::simulation::simulationText(settings);
     const std::vector<std::pair<Tool, std::vector<std::string>>> calls = {
@@ -101,6 +101,17 @@ TEST_F(UnsoundSpans, OfARejectedAttemptAreLeftOutByEveryToolAndNamed) {
   expectThatEveryToolSays(
       "left out 99 scans that are not the sheet under the recorded pressure: 20.1 to 29.9 s (attempt "
       "rejected: sheet_off)",
+      bag);
+}
+
+TEST_F(UnsoundSpans, WithoutAnyEventAreFoundByEveryTool) {
+  takeTheSheetOff(220, 260);
+  std::fill(recording_.pressure.begin() + 732, recording_.pressure.begin() + 762, 0.0);
+  const std::string bag = path("day.bag");
+  writeBag(bag, recording_);
+  expectThatEveryToolSays(
+      "left out 72 scans that are not the sheet under the recorded pressure: 22.0 to 26.1 s (pressure "
+      "without reading), 73.2 to 76.1 s (reading without pressure)",
       bag);
 }
 
