@@ -253,6 +253,8 @@ TEST_F(CalibrationFile, AForeignFileIsRefused) {
   const std::string foreign = path_ + ": is no calibration file; give one that train has written";
   write("#ROSBAG V2.0\n");
   EXPECT_EQ(complaint(), foreign);
+  EXPECT_THROW(saveCalibration(small(), path_), settings::InputError);  // another's file
+  std::remove(path_.c_str());
   saveCalibration(small(), path_);
   write(bytes().substr(512));  // HDF5 without our first line
   EXPECT_EQ(complaint(), foreign);
