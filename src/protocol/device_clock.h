@@ -17,8 +17,9 @@ struct DeviceClockOptions {
       0.5;  ///< a packet that is earlier than possible by more than this shows that a clock jumped [s]
   double late_limit = 1.0;  ///< a packet that is later than this is late for another reason than jitter [s]
   /// Smaller jumps count, too, where host times do not tick: from this on, and for early packets once the
-  /// estimate has settled [s].
-  double small_limit = 0.1;
+  /// estimate has settled [s]. A jump of 0.1 s counts also where the packet behind it is delayed by the 16 ms
+  /// after which a USB adapter sends its bytes.
+  double small_limit = 0.08;
   double settling = 5;        ///< after a start, buffers of the link may still be emptied [s]
   double late_patience = 5;   ///< if all packets are that late for this long, a clock jumped [s]
   double backward_limit = 1;  ///< device time may be this much smaller in a packet of another type [s]

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "fsr_pressure_map/protocol/decoder.h"
 #include "protocol/device_clock.h"
@@ -26,7 +27,8 @@ class PacketStamper {
 
   /// `duration` of the scan [us]. A board sends a scan after its last taxel at the earliest. So half of the
   /// duration lies between the middle of the scan and its arrival, in addition to the time on the line. Scans
-  /// do not overlap: a duration longer than the time since the scan before is replaced by the last good one.
+  /// do not overlap: a duration longer than the time from scan to scan is replaced by the last good one. That
+  /// of the first scan is judged with the second one; if it cannot be, the estimate of the clock restarts.
   PacketTime scan(const PacketHeader& header, std::uint32_t duration);
   PacketTime transducer(const PacketHeader& header);
   /// Does not update the clock, because a temperature may be sent long after it was measured.
@@ -38,6 +40,8 @@ class PacketStamper {
 
  private:
   std::int64_t timeOnTheLine(std::size_t bytes) const;
+  std::optional<double> periodBefore(const PacketHeader& header) const;
+  bool isPossible(std::uint32_t duration, std::optional<double> period) const;
   std::uint32_t possibleDuration(const PacketHeader& header, std::uint32_t duration);
   PacketTime finish(PacketType type, std::uint64_t device_time);
 
@@ -48,6 +52,7 @@ class PacketStamper {
   bool scanned_ = false;  // a scan has come over this line
   PacketHeader last_scan_;
   std::uint32_t last_duration_ = 0;  // [us]
+  std::optional<double> period_;     // between the last two scans between which it was known [us]
   std::uint64_t impossible_durations_ = 0;
 };
 

@@ -204,7 +204,7 @@ TEST(DeviceClock, RestartsWhenTheHostsClockIsSetBackOrAhead) {
 }
 
 TEST(DeviceClock, NoticesASmallJumpWithinSecondsAndCountsWhatItMadeWrong) {
-  for (const int step_us : {-300'000, -120'000, 120'000, 300'000}) {  // of the board's clock
+  for (const int step_us : {-300'000, -100'000, 100'000, 300'000}) {  // of the board's clock
     fsr::protocol::DeviceClock clock;
     feed(clock, 2000, 0, 0);
     const auto device = static_cast<std::uint32_t>(20'000'000 + step_us);
@@ -215,6 +215,20 @@ TEST(DeviceClock, NoticesASmallJumpWithinSecondsAndCountsWhatItMadeWrong) {
     EXPECT_NEAR(clock.lastJump().seconds, -1e-6 * step_us, 1e-3);
     // A clock that jumped ahead is noticed with the first packet, one that jumped back after 5 s.
     EXPECT_EQ(clock.doubtfulPackets(), step_us > 0 ? 0U : 501U) << step_us;
+  }
+}
+
+TEST(DeviceClock, NoticesAJumpOfATenthOfASecondThroughTheJitterOfBatches) {
+  for (const double step : {-0.1, 0.1}) {  // of the board's clock [s]
+    Link link;
+    link.delay = [](double host) { return 16 * kMs - std::fmod(host, 16 * kMs); };
+    fsr::protocol::DeviceClock clock;
+    run(link, 20, 20, clock);
+    link.first += 20 + step;
+    link.offset -= step;
+    run(link, 10, 10, clock);
+    EXPECT_EQ(clock.smallJumps(), 1U) << step;
+    EXPECT_EQ(clock.jumps(), 0U) << step;
   }
 }
 

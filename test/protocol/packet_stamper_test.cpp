@@ -65,6 +65,65 @@ TEST(PacketStamper, IsNotMisledByADurationThatCannotBe) {
   EXPECT_EQ(stamper.clock().jumps() + stamper.clock().smallJumps(), 0U);
 }
 
+// A stamper, and scans every 10 ms that arrive without delay after half their duration of 8 ms.
+struct Scans {
+  fsr::protocol::PacketStamper stamper;
+
+  Scans() { stamper.startLine(0); }
+  // Error of the stamp [ns].
+  std::int64_t error(std::uint32_t number, std::uint32_t duration = 8000) {
+    const std::int64_t middle = (1000 + 10 * std::int64_t{number}) * kMs;
+    stamper.setArrival(middle + 4 * kMs);
+    return stamper.scan({number, number * 10'000, 168}, duration).stamp - middle;
+  }
+};
+
+TEST(PacketStamper, IsNotMisledByTheDurationOfAFirstScan) {
+  Scans scans;
+  scans.error(0, 200'000);  // less than a second, but the scan behind it comes after 10 ms
+  for (std::uint32_t number = 1; number < 20; ++number) EXPECT_EQ(scans.error(number), 0) << number;
+  EXPECT_EQ(scans.stamper.impossibleDurations(), 1U);
+}
+
+TEST(PacketStamper, IsNotMisledByADurationAfterAPause) {
+  Scans scans;
+  for (std::uint32_t number = 0; number < 20; ++number) scans.error(number);
+  // The board paused for a second: its counter went on by one.
+  const auto paused = [&](std::uint32_t number, std::uint32_t duration) {
+    scans.stamper.setArrival((2004 + 10 * std::int64_t{number}) * kMs);
+    return scans.stamper.scan({number, 1'000'000 + number * 10'000, 168}, duration).stamp;
+  };
+  EXPECT_EQ(paused(20, 200'000), 2200 * kMs);
+  EXPECT_EQ(paused(21, 200'000), 2210 * kMs);
+  EXPECT_EQ(paused(22, 8000), 2220 * kMs);
+  EXPECT_EQ(scans.stamper.impossibleDurations(), 2U);
+}
+
+TEST(PacketStamper, KnowsTheDurationOfScansAfterTheBoardsCounterStartedAgain) {
+  Scans scans;
+  for (std::uint32_t number = 50; number < 70; ++number) scans.error(number);
+  const auto restarted = [&](std::uint32_t number, std::uint32_t duration) {
+    scans.stamper.setArrival((1704 + 10 * std::int64_t{number}) * kMs);
+    return scans.stamper.scan({number, (70 + number) * 10'000, 168}, duration).stamp;
+  };
+  EXPECT_EQ(restarted(0, 8000), 1700 * kMs);
+  EXPECT_EQ(restarted(1, 200'000), 1710 * kMs);
+  EXPECT_EQ(scans.stamper.impossibleDurations(), 1U);
+}
+
+// Without a counter each scan has the same number.
+TEST(PacketStamper, IsNotMisledByADurationOfABoardThatDoesNotCount) {
+  fsr::protocol::PacketStamper stamper;
+  stamper.startLine(0);
+  for (std::uint32_t number = 0; number < 20; ++number) {
+    stamper.setArrival((1004 + 10 * std::int64_t{number}) * kMs);
+    const bool wrong = number == 10;
+    EXPECT_EQ(stamper.scan({0, number * 10'000, 168}, wrong ? 200'000 : 8000).stamp,
+              (1000 + 10 * std::int64_t{number}) * kMs);
+  }
+  EXPECT_EQ(stamper.impossibleDurations(), 1U);
+}
+
 TEST(PacketStamper, StampsATemperatureWithoutUpdatingTheClock) {
   fsr::protocol::PacketStamper stamper;
   stamper.startLine(0);
