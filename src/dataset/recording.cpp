@@ -21,9 +21,9 @@ std::vector<std::string> describeLosses(const RecordingLosses& losses) {
                         ": the board started again, or stamps ran backwards and were sorted");
   }
   if (losses.sequence_gaps > 0) {
-    sentences.push_back("the board's counter has " + std::to_string(losses.sequence_gaps) +
-                        (losses.sequence_gaps == 1 ? " gap, " : " gaps, ") + scans(losses.lost_scans) +
-                        " lost");
+    sentences.push_back(std::to_string(losses.sequence_gaps) +
+                        (losses.sequence_gaps == 1 ? " gap" : " gaps") + " between scans, " +
+                        scans(losses.lost_scans) + " lost by the board's counter");
   }
   if (losses.duplicates > 0) {
     sentences.push_back("dropped " + scans(losses.duplicates) + " with the stamp of another one");

@@ -10,6 +10,8 @@
 #include "dataset/reference_spikes.h"
 #include "dataset/unsound/contradictions.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "settings/number_text.h"
+#include "statistics/median.h"
 
 namespace fsr::dataset {
 
@@ -25,15 +27,26 @@ std::int64_t nanoseconds(double seconds) {
 // indicate a wrong ambient pressure.
 constexpr double kSuspectOffset = 50e3;
 
-void countGap(std::uint32_t before, std::uint32_t now, RecordingLosses& losses) {
+// Without a scan for so long, scans are missing, whatever the board's counter says: tables and some boards
+// have none. A busy computer that stamps scans at their arrival is late by less.
+constexpr double kTimesUsualStep = 10, kLeastSilence = 0.1;  // [s]
+
+// Whether the board's counter jumped.
+bool countJump(std::uint32_t before, std::uint32_t now, RecordingLosses& losses) {
   const std::uint32_t step = now - before;
-  if (step <= 1) return;  // 0: the board does not count
-  ++losses.sequence_gaps;
+  if (step <= 1) return false;  // 0: the board does not count
   if (step < 0x80000000u) {
     losses.lost_scans += step - 1;
   } else {
     ++losses.counter_back;
   }
+  return true;
+}
+
+std::string silenceText(double from, double to, std::size_t silences) {
+  return "no scan came for " + settings::fixedText(to - from, 1) + " s (" + settings::fixedText(from, 1) +
+         " to " + settings::fixedText(to, 1) + " s)" +
+         (silences > 1 ? ", the longest of " + std::to_string(silences) + " such gaps" : "");
 }
 
 // Whether the scan is on a known surface and not close to a change; counts the others.
@@ -129,10 +142,29 @@ std::vector<RecordingBuilder::ScanEvent> RecordingBuilder::sortedScans(Recording
   const auto same_stamp = [](const ScanEvent& a, const ScanEvent& b) { return a.stamp_ns == b.stamp_ns; };
   sorted.erase(std::unique(sorted.begin(), sorted.end(), same_stamp), sorted.end());
   losses.duplicates = scans_.size() - sorted.size();
-  for (std::size_t i = 1; i < sorted.size(); ++i) {
-    countGap(sorted[i - 1].sequence, sorted[i].sequence, losses);
-  }
   return sorted;
+}
+
+void RecordingBuilder::findGaps(const std::vector<ScanEvent>& scans, Recording& recording) {
+  std::vector<double> steps;  // [s]
+  for (std::size_t i = 1; i < scans.size(); ++i) {
+    steps.push_back(1e-9 * static_cast<double>(scans[i].stamp_ns - scans[i - 1].stamp_ns));
+  }
+  if (steps.empty()) return;
+  const auto longest = static_cast<std::size_t>(std::max_element(steps.begin(), steps.end()) - steps.begin());
+  const double silence = std::max(kLeastSilence, kTimesUsualStep * statistics::upperMedian(steps));
+  std::size_t silences = 0;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const bool jumped = countJump(scans[i].sequence, scans[i + 1].sequence, recording.losses);
+    const bool silent = steps[i] > silence;
+    recording.losses.sequence_gaps += jumped || silent;
+    silences += silent;
+  }
+  if (silences == 0) return;
+  const auto seconds = [&](std::size_t i) {
+    return 1e-9 * static_cast<double>(scans[i].stamp_ns - scans[0].stamp_ns);
+  };
+  recording.warnings.push_back(silenceText(seconds(longest), seconds(longest + 1), silences));
 }
 
 // Places of the spikes in the reference. The sheet's reading at a chamber pressure is that of the scan before
@@ -301,6 +333,7 @@ Recording RecordingBuilder::assemble(const RecordingOptions& options,
 
   const std::int64_t gap = nanoseconds(options.longest_reference_gap);
   const std::vector<ScanEvent> scans = sortedScans(recording.losses);
+  findGaps(scans, recording);
   const std::vector<std::size_t> spikes = spikesOf(reference, scans);
   reference.drop(spikes);
   recording.losses.reference_spikes = spikes.size();

@@ -110,6 +110,8 @@ class RecordingBuilder {
   Recording buildFile(const RecordingOptions& options) const;
   bool inOrderOfTime() const;
   std::vector<ScanEvent> sortedScans(RecordingLosses& losses) const;
+  // Counts the gaps between scans, and names the longest time without one.
+  static void findGaps(const std::vector<ScanEvent>& scans, Recording& recording);
   std::vector<std::size_t> spikesOf(const TimeSeries& reference, const std::vector<ScanEvent>& scans) const;
   // The earliest description; null where there is none. Throws InputError where descriptions and scans
   // differ.

@@ -153,7 +153,33 @@ TEST(RecordingBuilder, CountsGapsOfTheBoardsCounter) {
              scan(ms(300), 4, 5), scan(ms(400), 5, 5), scan(ms(500), 2, 5)});  // the board restarts
   EXPECT_EQ(recording.losses.sequence_gaps, 2u);
   EXPECT_EQ(recording.losses.lost_scans, 3u);
-  EXPECT_EQ(recording.warnings.back(), "the board's counter has 2 gaps, 3 scans lost");
+  EXPECT_EQ(recording.warnings.back(), "2 gaps between scans, 3 scans lost by the board's counter");
+}
+
+TEST(RecordingBuilder, CountsAndNamesTimesWithoutAScanThatNoCounterShows) {
+  std::vector<Event> events;
+  for (std::uint32_t i = 0; i < 50; ++i) {
+    const std::int64_t late = i < 20 ? 0 : i < 40 ? 276'000 : 278'000;
+    events.push_back(scan(ms(100 * i + late), i, 5));
+  }
+  const Recording recording = build(events);
+  EXPECT_EQ(recording.losses.sequence_gaps, 2u);
+  EXPECT_EQ(recording.losses.lost_scans, 0u);
+  const auto says = [&](const std::string& sentence) {
+    return std::count(recording.warnings.begin(), recording.warnings.end(), sentence) == 1;
+  };
+  EXPECT_TRUE(says("no scan came for 276.1 s (1.9 to 278.0 s), the longest of 2 such gaps"));
+  EXPECT_TRUE(says("2 gaps between scans, 0 scans lost by the board's counter"));
+}
+
+TEST(RecordingBuilder, CountsAGapOnceThatTimeAndCounterShow) {
+  std::vector<Event> events;
+  for (std::uint32_t i = 0; i < 50; ++i)
+    events.push_back(scan(ms(i < 20 ? 10 * i : 10 * i + 150), i < 20 ? i : i + 15, 5));
+  events.push_back(scan(ms(700), 65, 5));  // five usual steps: a busy computer
+  const Recording recording = build(events);
+  EXPECT_EQ(recording.losses.sequence_gaps, 1u);
+  EXPECT_EQ(recording.losses.lost_scans, 15u);
 }
 
 TEST(RecordingBuilder, DropsScansWithoutAReferenceBeforeAndAfter) {

@@ -25,8 +25,8 @@ class CountFile;  // dataset/count_file.h
 
 /// What was lost between the board and the Recording.
 struct RecordingLosses {
-  std::uint64_t sequence_gaps = 0;     ///< places where the board's scan counter jumped
-  std::uint64_t lost_scans = 0;        ///< scans that those jumps skipped
+  std::uint64_t sequence_gaps = 0;     ///< places where the board's counter jumped, or no scan came for long
+  std::uint64_t lost_scans = 0;        ///< scans that the jumps of the counter skipped
   std::uint64_t duplicates = 0;        ///< scans with the stamp of another one, dropped
   std::uint64_t near_change = 0;       ///< scans within 1 s of a change of surface, dropped
   std::uint64_t no_reference = 0;      ///< scans without a chamber pressure before and after them, dropped

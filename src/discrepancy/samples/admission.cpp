@@ -65,7 +65,7 @@ void judgeRest(const AdmittedRecording& recording, const AdmissionOptions& optio
   if (lost > options.lost_share * (lost + double(recording.scans))) {
     admission.remarks.push_back(recording.name + ": " + percentOf(lost / (lost + double(recording.scans))) +
                                 " of the scans are lost (" + std::to_string(recording.losses.sequence_gaps) +
-                                " gaps in the board's counter)");
+                                " gaps)");
   }
   if (recording.health.saturated > options.saturated_share) {
     admission.remarks.push_back(recording.name + ": " + percentOf(recording.health.saturated) +
