@@ -117,7 +117,7 @@ std::optional<ReferenceLag> referenceLag(const std::vector<double>& time, const 
     const double bend = *(best - 1) - 2 * *best + *(best + 1);
     if (bend < 0) place += 0.5 * (*(best - 1) - *(best + 1)) / bend;
   }
-  return ReferenceLag{(place - double(most)) * step, *best};
+  return ReferenceLag{(place - double(most)) * step, *best, step};
 }
 
 }  // namespace fsr::dataset

@@ -16,6 +16,7 @@ struct ReferenceLagOptions {
 struct ReferenceLag {
   double seconds = 0;  ///< positive: the matrix follows chamber_pressure later [s]
   double correlation = 0;
+  double step = 0;  ///< of the grid on which it was found [s]
 };
 
 /// The lag at which the rate of change of the sheet's median reading correlates best with that of the chamber

@@ -59,6 +59,26 @@ TEST(Admission, TakesClocksThatDifferForAProblem) {
   EXPECT_TRUE(tells(admission.problems, "2.0")) << admission.problems.at(0);
 }
 
+TEST(Admission, RemarksOnAMatrixThatAnswersBeforeTheChamber) {
+  const auto shifted = [](std::ptrdiff_t scans) {  // the reference is late by so many tenths of a second
+    dataset::Recording recording = recorded();
+    std::rotate(recording.pressure.begin(), recording.pressure.end() - scans, recording.pressure.end());
+    return inspectRecordings({recording});
+  };
+  const Admission early = shifted(3);
+  EXPECT_TRUE(early.fit());
+  EXPECT_TRUE(tells(early.remarks, " s before chamber_pressure, which no sheet does"));
+  EXPECT_NEAR(early.recordings.at(0).lag->seconds, -0.3, 0.03);
+  EXPECT_FALSE(tells(shifted(0).remarks, "before chamber_pressure"));
+  EXPECT_FALSE(tells(shifted(20).remarks, "before chamber_pressure")) << "it is a problem";
+}
+
+TEST(Admission, SaysNothingOfASheetThatIsLateByHysteresis) {
+  dataset::Recording recording = recorded();
+  std::rotate(recording.pressure.begin(), recording.pressure.begin() + 3, recording.pressure.end());
+  EXPECT_FALSE(tells(inspectRecordings({recording}).remarks, "chamber_pressure"));
+}
+
 TEST(Admission, RemarksOnOneBadTaxelAndRefusesMany) {
   dataset::Recording recording = recorded();
   const auto kill = [&](std::size_t taxel) {

@@ -49,6 +49,17 @@ void judgeLag(const AdmittedRecording& recording, const AdmissionOptions& option
       settings::fixedText(options.lag, 2) + " s): do both stamps come from one clock?");
 }
 
+// A sheet cannot answer before its load, but a reference can be late.
+void judgeLead(const AdmittedRecording& recording, const AdmissionOptions& options, Admission& admission) {
+  if (!recording.lag || std::abs(recording.lag->seconds) > options.lag) return;  // see judgeLag()
+  const double lead = -recording.lag->seconds;
+  if (lead <= std::max(options.lead, recording.lag->step / 2)) return;
+  admission.remarks.push_back(
+      recording.name + ": the matrix answers " + settings::fixedText(lead, 2) +
+      " s before chamber_pressure, which no sheet does: is the transducer filtered, at the "
+      "end of a long tube, or stamped late?");
+}
+
 void judgeFaults(const AdmittedRecording& recording, std::size_t taxels, const AdmissionOptions& options,
                  Admission& admission) {
   const std::size_t failing = recording.health.dead.size() + recording.health.stuck.size();
@@ -118,6 +129,7 @@ Admission inspectRecordings(std::vector<dataset::Recording> recordings, const Ad
     const AdmittedRecording looked = lookAt(recording);
     judgeLag(looked, options, admission);
     judgeFaults(looked, recording.layout.size.taxels(), options, admission);
+    judgeLead(looked, options, admission);
     judgeRest(looked, options, admission);
     for (const std::string& warning : recording.warnings) {
       admission.remarks.push_back(recording.name + ": " + warning);

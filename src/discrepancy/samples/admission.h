@@ -13,7 +13,10 @@ namespace fsr::discrepancy {
 
 /// Limits beyond which a recording is reported. All defaults are set here.
 struct AdmissionOptions {
-  double lag = 0.5;            ///< between matrix and chamber [s]; hysteresis alone causes some tenths
+  double lag = 0.5;  ///< between matrix and chamber [s]; hysteresis alone causes some tenths
+  /// By which the matrix may answer before the chamber [s], at least half the step from scan to scan: the lag
+  /// is not known better. No memory of a sheet makes it answer before its load.
+  double lead = 0.1;
   double lost_share = 0.001;   ///< share of lost scans that causes a remark (ratio)
   double failing_share = 0.1;  ///< share of dead or stuck taxels beyond which training is not advised (ratio)
   double saturated_share = 0.05;  ///< share of readings at full scale that causes a remark (ratio)
