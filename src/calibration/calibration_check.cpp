@@ -60,10 +60,6 @@ struct Sums {
   }
 };
 
-std::string kilopascals(double value) {
-  return settings::fixedText(value / 1000, 1) + " kPa";
-}
-
 std::string places(const std::vector<std::size_t>& taxels, const matrix::Layout& layout) {
   constexpr std::size_t kListed = 8;
   std::string list;
@@ -182,7 +178,7 @@ void noteTare(const Calibration& calibration, const std::vector<dataset::Recordi
       check.remarks.begin(),
       "each session is checked with a tare at its start, as the calibration expects; without "
       "it the RMSE is " +
-          kilopascals(check.rmse_without_tare));
+          settings::fixedKilopascals(check.rmse_without_tare, 1));
 }
 
 void judgeClass(const CheckedClass& checked, double range, const CalibrationCheckOptions& options,
@@ -196,12 +192,12 @@ void judgeClass(const CheckedClass& checked, double range, const CalibrationChec
   }
   if (checked.rmse > options.rmse_ratio * checked.expected_rmse) {
     reasons.push_back(where + "errors are " + settings::fixedText(checked.rmse / checked.expected_rmse, 2) +
-                      " times the expected ones (RMSE " + kilopascals(checked.rmse) + ", expected " +
-                      kilopascals(checked.expected_rmse) +
+                      " times the expected ones (RMSE " + settings::fixedKilopascals(checked.rmse, 1) +
+                      ", expected " + settings::fixedKilopascals(checked.expected_rmse, 1) +
                       "; allowed: " + settings::fixedText(options.rmse_ratio, 2) + " times)");
   }
   if (std::abs(checked.bias) > options.bias_share * range) {
-    reasons.push_back(where + "maps are " + kilopascals(std::abs(checked.bias)) +
+    reasons.push_back(where + "maps are " + settings::fixedKilopascals(std::abs(checked.bias), 1) +
                       (checked.bias > 0 ? " above" : " below") + " the chamber pressure on average, " +
                       settings::percentText(std::abs(checked.bias) / range) +
                       " of the range (allowed: " + settings::percentText(options.bias_share) + ")");
@@ -215,8 +211,8 @@ std::string memoryNotShown(const Calibration& calibration, double not_settled) {
   const std::vector<HistoryScore::Part>& parts = calibration.scores.history.parts;
   if (!parts.empty()) {
     text += ", so that the RMSE that training found with it on left-out protocols (" +
-            kilopascals(parts.front().rmse) + " instead of " + kilopascals(parts.front().static_rmse) +
-            ") was not seen";
+            settings::fixedKilopascals(parts.front().rmse, 1) + " instead of " +
+            settings::fixedKilopascals(parts.front().static_rmse, 1) + ") was not seen";
   }
   return text + "; give a bag that begins at rest, or one with wide changes of load after " +
          settings::fixedText(std::ceil(calibration.history.settlingTime()), 0) + " s";

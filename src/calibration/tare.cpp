@@ -9,10 +9,6 @@ namespace fsr::calibration {
 
 namespace {
 
-std::string kilopascal(double pressure) {
-  return settings::roundedText(pressure / 1000, 3) + " kPa";
-}
-
 bool hasReading(const map::PressureMap& map, std::size_t taxel) {
   constexpr std::uint16_t kFailed = map::taxel_flag::kDead | map::taxel_flag::kStuck;
   return std::isfinite(map.pressure[taxel]) && (map.flags[taxel] & kFailed) == 0;
@@ -57,15 +53,16 @@ std::vector<float> TareMeasurement::offset(const std::vector<float>& standing) c
     ++read;
     const double offset = result[taxel] + m.mean;
     if (std::abs(offset) > options_.limit) {
-      throw settings::InputError("the tare is refused: " + place(taxel) + " reads " + kilopascal(offset) +
-                                 " at rest, but must be within " + kilopascal(options_.limit) +
-                                 " (~tare_limit)");
+      throw settings::InputError("the tare is refused: " + place(taxel) + " reads " +
+                                 settings::roundedKilopascals(offset, 3) + " at rest, but must be within " +
+                                 settings::roundedKilopascals(options_.limit, 3) + " (~tare_limit)");
     }
     const double scatter = m.deviation();
     if (scatter > options_.scatter) {
       throw settings::InputError("the tare is refused: " + place(taxel) + " scatters by " +
-                                 kilopascal(scatter) + " as on a limb, but must be within " +
-                                 kilopascal(options_.scatter) + " (~tare_scatter)");
+                                 settings::roundedKilopascals(scatter, 3) +
+                                 " as on a limb, but must be within " +
+                                 settings::roundedKilopascals(options_.scatter, 3) + " (~tare_scatter)");
     }
     result[taxel] = static_cast<float>(offset);
   }

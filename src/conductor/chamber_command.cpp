@@ -10,7 +10,7 @@ using session_plan::StepKind;
 
 namespace {
 
-constexpr double kVenting = 17e3;  // where the step has no pace [Pa/s]
+constexpr double kUnplannedVentRate = 17e3;  // where the step has no pace [Pa/s]
 
 }  // namespace
 
@@ -40,7 +40,7 @@ void ChamberCommand::rampTo(double pressure, double rate) {
 // Null = vent.
 void ChamberCommand::plan(const SessionStep* step) {
   course_.assign(1, {0, set_});
-  const double vent = step != nullptr && step->vent_rate > 0 ? step->vent_rate : kVenting;
+  const double vent = step != nullptr && step->vent_rate > 0 ? step->vent_rate : kUnplannedVentRate;
   const auto stay = [this](double time) { course_.push_back({time, course_.back().pressure}); };
   if (step == nullptr || step->kind == StepKind::kRest || step->kind == StepKind::kBreak) {
     rampTo(0, vent);

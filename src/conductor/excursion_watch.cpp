@@ -22,8 +22,9 @@ namespace fsr::conductor {
 
 namespace {
 
-constexpr double kPatience = 10;  // time above the planned dwell and its tolerance, until it is rejected [s]
-constexpr double kVenting = 30;   // time beyond the planned time of venting, until a complaint [s]
+constexpr double kDwellPatience =
+    10;  // time above the planned dwell and its tolerance, until it is rejected [s]
+constexpr double kVentPatience = 30;  // time beyond the planned time of venting, until a complaint [s]
 
 class ExcursionWatch : public StepWatch {
  public:
@@ -120,7 +121,7 @@ class ExcursionWatch : public StepWatch {
       return down();
     }
     const double ramps = ramp(step_.fill_rate) + ramp(step_.vent_rate);
-    if (crossings_.timeAbove() < step_.dwell_peak + 2 * step_.dwell_error + 2 * ramps + kPatience)
+    if (crossings_.timeAbove() < step_.dwell_peak + 2 * step_.dwell_error + 2 * ramps + kDwellPatience)
       return std::nullopt;
     measured_.dwell = crossings_.timeAbove() - ramp(step_.fill_rate);
     return reject(Reason::kNoUnloading, "the pressure stays at " + kPaText(now_.pressure) +
@@ -153,7 +154,7 @@ class ExcursionWatch : public StepWatch {
   // With a stop on the way, neither dwell nor pace of the venting can be told [s].
   double longestVenting() const {
     const double planned = step_.vent_rate > 0 ? (step_.peak - base_) / step_.vent_rate : 0;
-    return 2 * planned + kVenting;
+    return 2 * planned + kVentPatience;
   }
   std::optional<Verdict> finish() {
     measured_.vent_rate = crossings_.ventRate().value_or(step_.vent_rate);

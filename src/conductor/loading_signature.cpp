@@ -9,7 +9,7 @@ namespace fsr::conductor {
 namespace {
 
 constexpr double kFirst = 0.1, kLast = 0.9;  // shares of the peak
-constexpr double kWidth = (kLast - kFirst) / LoadingSignature::kLevels;
+constexpr double kLevelWidth = (kLast - kFirst) / LoadingSignature::kLevels;
 
 }  // namespace
 
@@ -33,7 +33,7 @@ void LoadingSignature::take(double pressure, const std::uint16_t* counts, std::s
   const double share = pressure / peak_;
   over_ = over_ || share >= kLast;
   if (over_ || share < kFirst) return;
-  Bin& bin = bins_[std::min(kLevels - 1, static_cast<std::size_t>((share - kFirst) / kWidth))];
+  Bin& bin = bins_[std::min(kLevels - 1, static_cast<std::size_t>((share - kFirst) / kLevelWidth))];
   if (bin.counts.size() != taxels) {
     bin = {};
     bin.counts.assign(taxels, 0);
@@ -55,7 +55,7 @@ Signature LoadingSignature::result() const {
     if (!over_ || bin.scans < 1 || bin.counts.size() != bins_[0].counts.size()) return {};
     const double mean = bin.pressure / bin.scans;
     const double spread = bin.square - bin.pressure * mean;
-    const double middle = kFirst + (static_cast<double>(b) + 0.5) * kWidth;
+    const double middle = kFirst + (static_cast<double>(b) + 0.5) * kLevelWidth;
     for (std::size_t t = 0; t < bin.counts.size(); ++t) {
       const double slope = spread > 0 ? (bin.moments[t] - mean * bin.counts[t]) / spread : 0;
       result.push_back(bin.counts[t] / bin.scans + slope * (middle - mean));

@@ -11,7 +11,7 @@ namespace fsr::conductor {
 
 namespace {
 
-constexpr double kPatience = 30;  // beyond the planned time of venting, until a complaint [s]
+constexpr double kRestPatience = 30;  // beyond the planned time of venting, until a complaint [s]
 
 class RestWatch : public StepWatch {
  public:
@@ -32,7 +32,7 @@ class RestWatch : public StepWatch {
   bool running() const override { return rested_; }
   Hint hint() const override {
     const double venting = std::max(0.0, step_.duration - step_.dwell_rest);
-    if (rested_ || now_.pressure <= kRestLevel || now_.time - begin_ < venting + kPatience) return {};
+    if (rested_ || now_.pressure <= kRestLevel || now_.time - begin_ < venting + kRestPatience) return {};
     return {Reason::kRestNotReached, "the pressure stays at " + kPaText(now_.pressure) +
                                          " and does not go down to rest; open the vent"};
   }

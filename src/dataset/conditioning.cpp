@@ -71,13 +71,9 @@ void findRun(const std::vector<double>& peaks, const ConditioningOptions& option
   }
 }
 
-std::string kilopascals(double pressure) {
-  return settings::fixedText(pressure / 1e3, 0) + " kPa";
-}
-
 std::string cyclesText(const Conditioning& session) {
   return std::to_string(session.cycles) + (session.cycles == 1 ? " cycle to " : " cycles to ") +
-         kilopascals(session.peak) + " seen";
+         settings::fixedKilopascals(session.peak, 0) + " seen";
 }
 
 std::string whatWasSeen(const Conditioning& session) {
@@ -88,7 +84,7 @@ std::string whatWasSeen(const Conditioning& session) {
   if (session.cycles > 0) return cyclesText(session) + ", fewer than four: " + kWhyItMatters;
   const ConditioningOptions usual;
   return std::string("not seen: ") + kWhyItMatters + " (four or five cycles to " +
-         kilopascals(usual.share_of_peak * session.later) +
+         settings::fixedKilopascals(usual.share_of_peak * session.later, 0) +
          " before the first recording, recorded or marked with the event \"conditioning\")";
 }
 

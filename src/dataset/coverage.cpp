@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "dataset/measure_coverage.h"
+#include "settings/number_text.h"
 
 namespace fsr::dataset {
 
@@ -70,12 +71,6 @@ void judgeCells(const ConditionCoverage& coverage, double highest, std::uint64_t
   }
 }
 
-std::string kilopascals(double pressure) {
-  std::ostringstream text;
-  text << pressure * 1e-3 << " kPa";
-  return text.str();
-}
-
 // What the surfaces as a whole lack.
 void judgeSurfaces(const std::vector<ConditionCoverage>& conditions, double highest,
                    std::vector<std::string>& sentences) {
@@ -86,7 +81,8 @@ void judgeSurfaces(const std::vector<ConditionCoverage>& conditions, double high
   for (const ConditionCoverage& condition : conditions) {
     if (condition.pressure_high >= kEqualPeaks * highest) continue;
     sentences.push_back(condition.condition.surface + " was loaded to " +
-                        kilopascals(condition.pressure_high) + " only, others to " + kilopascals(highest) +
+                        settings::roundedKilopascals(condition.pressure_high, 6) + " only, others to " +
+                        settings::roundedKilopascals(highest, 6) +
                         ": above that, readings on it and between it and its neighbours are lower limits");
   }
 }
@@ -108,7 +104,7 @@ std::vector<std::string> thinPlaces(const std::vector<ConditionCoverage>& condit
   std::stable_sort(thin.begin(), thin.end(), [](const Thin& a, const Thin& b) { return a.scans < b.scans; });
   std::vector<std::string> sentences;
   if (highest < statistics::kPressureBinEdges.back()) {
-    sentences.push_back("no surface was loaded above " + kilopascals(highest));
+    sentences.push_back("no surface was loaded above " + settings::roundedKilopascals(highest, 6));
   }
   judgeSurfaces(conditions, highest, sentences);
   for (const Thin& entry : thin) sentences.push_back(entry.sentence);

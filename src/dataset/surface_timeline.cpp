@@ -23,7 +23,7 @@ bool sameSurface(const matrix::Surface& a, const matrix::Surface& b, double tole
 }
 
 // A total order, so that the order of the calls does not matter for two surfaces with the same stamp.
-bool precedes(const SurfaceTimeline::Event& a, const SurfaceTimeline::Event& b) {
+bool beganBefore(const SurfaceTimeline::Event& a, const SurfaceTimeline::Event& b) {
   const auto key = [](const SurfaceTimeline::Event& event) {
     return std::tie(event.first, event.second.name, event.second.mount);
   };
@@ -42,7 +42,7 @@ SurfaceTimeline::SurfaceTimeline(std::vector<Event> events, double tolerance) {
   if (std::none_of(events.begin(), events.end(), known)) {
     events.assign(1, Event{std::numeric_limits<std::int64_t>::min(), matrix::Surface{}});
   }
-  std::sort(events.begin(), events.end(), precedes);
+  std::sort(events.begin(), events.end(), beganBefore);
   for (const auto& [stamp, surface] : events) {
     const std::size_t condition = conditionOf(surface, tolerance);
     if (from_.empty() || from_.back().second != condition) from_.emplace_back(stamp, condition);

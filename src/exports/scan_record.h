@@ -29,7 +29,7 @@ struct ScanRecord {
   std::shared_ptr<const matrix::Surface> surface;  ///< surface at the time of the scan; none = unknown
   std::string session;                             ///< empty = unknown
   std::optional<std::size_t> cycle;                ///< cycle of the chamber's pressure, from 1
-  std::string event;                     ///< last event before the scan, "kind" or "kind:label"; empty = none
+  std::string event;  ///< last event before the scan, "kind" or "kind:label"; empty = none
 };
 
 /// Properties of a recording that do not change during its export.

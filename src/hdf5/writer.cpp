@@ -7,23 +7,15 @@
 #include <stdexcept>
 #include <type_traits>
 
+#include "hdf5/column.h"
 #include "hdf5/handle.h"
 
 namespace fsr::hdf5 {
 
 namespace {
 
-inline std::vector<hsize_t> dimensions(const std::vector<std::size_t>& shape) {
+inline std::vector<hsize_t> extents(const std::vector<std::size_t>& shape) {
   return {shape.begin(), shape.end()};
-}
-
-// Fixed length, padded with zeros, which every reader of HDF5 supports.
-hid_t textType(std::size_t length) {
-  const hid_t type = H5Tcopy(H5T_C_S1);
-  H5Tset_size(type, std::max<std::size_t>(length, 1));
-  H5Tset_strpad(type, H5T_STR_NULLPAD);
-  H5Tset_cset(type, H5T_CSET_UTF8);
-  return type;
 }
 
 void writeAttribute(hid_t file, const std::string& path, const std::string& name, hid_t type, hid_t space,
@@ -47,7 +39,7 @@ hid_t createSpace(const std::vector<hsize_t>& size) {
 
 void writeDataset(hid_t file, const std::string& path, hid_t type, const std::vector<std::size_t>& shape,
                   const void* values) {
-  const Handle space(createSpace(dimensions(shape)), H5Sclose, path);
+  const Handle space(createSpace(extents(shape)), H5Sclose, path);
   const Handle dataset(createDataset(file, path, type, space), H5Dclose, path);
   if (elements(shape) > 0) require(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), path);
 }
@@ -59,7 +51,7 @@ using Piece = std::function<std::vector<T>(std::size_t)>;
 template <typename Stored, typename T>
 void writePieces(hid_t file, const std::string& path, std::size_t pieces, const Piece<T>& piece,
                  const std::vector<std::size_t>& shape) {
-  const std::vector<hsize_t> size = dimensions(shape);
+  const std::vector<hsize_t> size = extents(shape);
   const hsize_t slab = std::accumulate(size.begin() + 1, size.end(), hsize_t{1}, std::multiplies<>());
   const Handle space(createSpace(size), H5Sclose, path);
   const Handle dataset(createDataset(file, path, typeOf<Stored>(), space), H5Dclose, path);

@@ -11,7 +11,7 @@ namespace {
 // A quantile of fewer readings is unreliable, because readings that follow each other are alike.
 constexpr double kLeastReadingsOfGroup = 500.0;
 // The factor of all groups counts like this many readings of the group.
-constexpr double kPriorReadings = 100.0;
+constexpr double kPriorOfScale = 100.0;
 constexpr double kLargestRatio = 4.0;
 
 }  // namespace
@@ -61,7 +61,7 @@ std::vector<double> DeviationScale::factors() const {
     if (readings_[group] == 0) continue;
     const double own = quantile(ratios_[group]);
     const double factor =
-        (readings_[group] * own + kPriorReadings * of_all) / (readings_[group] + kPriorReadings);
+        (readings_[group] * own + kPriorOfScale * of_all) / (readings_[group] + kPriorOfScale);
     if (code == 0) left_factor = factor;  // constant below the first centre
     for (; code < factors.size() && static_cast<double>(code) <= centre_[group]; ++code) {
       const double width = centre_[group] - left_centre;

@@ -12,7 +12,7 @@ namespace {
 
 // With this many readings of a code its own errors and those of its neighbourhood have equal weight; likewise
 // the neighbourhood and all codes.
-constexpr double kPriorReadings = 30.0;
+constexpr double kPriorOfDeviation = 30.0;
 // Half width of a neighbourhood, as a share of the codes that occur: narrow compared with the bends of a
 // sensor's curve, wide enough to contain a hundred readings of a recording of ten minutes at 10 Hz.
 constexpr double kNeighbourhood = 1.0 / 64.0;
@@ -98,9 +98,9 @@ std::vector<double> HeldOutErrors::rootMeanSquare(const Sums& sums, std::size_t 
   std::vector<double> root(codes_);
   for (std::size_t code = 0; code < codes_; ++code) {
     // rounding can make a difference of prefix sums negative
-    const double near =
-        (std::max(0.0, near_squares[code]) + kPriorReadings * pooled) / (near_count[code] + kPriorReadings);
-    root[code] = (sums.squares[code] + kPriorReadings * near) / (sums.count[code] + kPriorReadings);
+    const double near = (std::max(0.0, near_squares[code]) + kPriorOfDeviation * pooled) /
+                        (near_count[code] + kPriorOfDeviation);
+    root[code] = (sums.squares[code] + kPriorOfDeviation * near) / (sums.count[code] + kPriorOfDeviation);
   }
   for (double& square : root) square = std::sqrt(square);
   return root;

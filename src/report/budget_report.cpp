@@ -19,7 +19,7 @@ using calibration::BudgetValues;
 using calibration::ErrorBudget;
 using calibration::ErrorIntervals;
 
-constexpr int kNameWidth = 28;
+constexpr int kSourceWidth = 28;
 constexpr int kValueWidth = 9;
 constexpr std::size_t kLevels = calibration::kIntervalLevels.size();
 constexpr const char* kLevelNames[kLevels] = {"68 %", "95 %"};
@@ -28,7 +28,7 @@ constexpr double kUneven = 0.10;
 
 void row(std::ostream& out, const std::string& name, const BudgetValues& values, double factor,
          const std::string& more) {
-  out << std::left << std::setw(kNameWidth) << name << std::right;
+  out << std::left << std::setw(kSourceWidth) << name << std::right;
   for (const double value : values)
     out << std::setw(kValueWidth) << settings::fixedText(factor * value / 1e3, 2);
   out << (more.empty() ? "" : "  ") << more << '\n';
@@ -47,7 +47,7 @@ void budgetTable(std::ostream& out, const ErrorBudget& budget) {
   out << "Error budget [kPa], standard uncertainties. Lines \"inside\" are parts of the held-out error and "
          "are "
          "not added again.\n";
-  out << std::left << std::setw(kNameWidth) << "at % of the trained range" << std::right;
+  out << std::left << std::setw(kSourceWidth) << "at % of the trained range" << std::right;
   for (const double share : calibration::kBudgetShares)
     out << std::setw(kValueWidth) << settings::percentText(share, 0);
   out << '\n';
@@ -67,7 +67,7 @@ const char* unitsOf(const ErrorIntervals& intervals) {
 }
 
 void intervalRow(std::ostream& out, const std::string& name, const calibration::BinIntervals& bin) {
-  out << std::left << std::setw(kNameWidth) << name << std::right << std::setw(8) << bin.units;
+  out << std::left << std::setw(kSourceWidth) << name << std::right << std::setw(8) << bin.units;
   for (std::size_t level = 0; level < kLevels; ++level) {
     out << std::setw(10) << settings::fixedText(bin.factor[level], 2) << std::setw(10)
         << settings::percentText(bin.covered[level]);
@@ -138,7 +138,7 @@ void intervalTable(std::ostream& out, const ErrorIntervals& intervals, const mat
   out << "Intervals: pressure +- factor x deviation, of whole " << unitsOf(intervals)
       << " that were left out. \"covers\": share of a unit's readings, with the factor of the others.\n"
       << (mounts ? "" : "They hold for new cycles. For another mount they are not assessed.\n");
-  out << std::left << std::setw(kNameWidth) << "pressure of the map [kPa]" << std::right << std::setw(8)
+  out << std::left << std::setw(kSourceWidth) << "pressure of the map [kPa]" << std::right << std::setw(8)
       << unitsOf(intervals);
   for (const char* const level : kLevelNames) out << std::setw(10) << level << std::setw(10) << "covers";
   out << '\n';
@@ -151,7 +151,7 @@ void intervalTable(std::ostream& out, const ErrorIntervals& intervals, const mat
 }
 
 void scaleRow(std::ostream& out, const std::string& name, const calibration::BinScale& bin, double factor) {
-  out << std::left << std::setw(kNameWidth) << name << std::right << std::setw(10)
+  out << std::left << std::setw(kSourceWidth) << name << std::right << std::setw(10)
       << settings::fixedText(factor, 2) << std::setw(10) << settings::percentText(bin.within_tables)
       << std::setw(10) << settings::percentText(bin.within_map) << '\n';
 }
@@ -170,7 +170,7 @@ void scaleTable(std::ostream& out, const ErrorIntervals& intervals) {
   out << "Deviation of the map: that of the tables x factor, so that 68 % of the readings of new "
       << unitsOf(intervals) << " lie within it. Shares: of left-out " << unitsOf(intervals)
       << ", with the factors of the others.\n";
-  out << std::left << std::setw(kNameWidth) << "pressure of the map [kPa]" << std::right << std::setw(10)
+  out << std::left << std::setw(kSourceWidth) << "pressure of the map [kPa]" << std::right << std::setw(10)
       << "factor" << std::setw(10) << "tables" << std::setw(10) << "map" << '\n';
   for (std::size_t bin = 0; bin < statistics::kPressureBins; ++bin)
     scaleRow(out, statistics::pressureBinName(bin), scale.bins[bin], scale.bins[bin].factor);

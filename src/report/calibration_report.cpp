@@ -13,10 +13,9 @@ namespace {
 
 constexpr int kNameWidth = 18;
 constexpr int kCellWidth = 14;
-constexpr double kKilopascal = 1e3;  // [Pa]
 
 std::string kilopascal(double pressure) {
-  return settings::fixedText(pressure / kKilopascal, 1);
+  return settings::fixedText(pressure / 1e3, 1);
 }
 
 std::string spread(const statistics::Spread& value, int digits) {

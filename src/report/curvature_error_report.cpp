@@ -11,9 +11,8 @@ namespace fsr::report {
 
 namespace {
 
-constexpr int kNameWidth = 20;
-constexpr int kCellWidth = 9;
-constexpr double kKilopascal = 1e3;  // [Pa]
+constexpr int kSchemeWidth = 20;
+constexpr int kErrorCellWidth = 9;
 
 // "right", "-40 %", "+2 1/m".
 std::string errorText(const study::CurvatureError& error) {
@@ -26,13 +25,14 @@ std::string errorText(const study::CurvatureError& error) {
 template <typename Cell>
 void table(std::ostream& out, const std::string& title, const std::vector<study::CurvatureErrorCurve>& curves,
            Cell cell) {
-  out << title << '\n' << std::left << std::setw(2 + kNameWidth) << "  curvature is" << std::right;
+  out << title << '\n' << std::left << std::setw(2 + kSchemeWidth) << "  curvature is" << std::right;
   for (const study::CurvatureErrorScore& score : curves.front().scores)
-    out << std::setw(kCellWidth) << errorText(score.error);
+    out << std::setw(kErrorCellWidth) << errorText(score.error);
   out << '\n';
   for (const study::CurvatureErrorCurve& curve : curves) {
-    out << "  " << std::left << std::setw(kNameWidth) << curve.id << std::right;
-    for (const study::CurvatureErrorScore& score : curve.scores) out << std::setw(kCellWidth) << cell(score);
+    out << "  " << std::left << std::setw(kSchemeWidth) << curve.id << std::right;
+    for (const study::CurvatureErrorScore& score : curve.scores)
+      out << std::setw(kErrorCellWidth) << cell(score);
     out << '\n';
   }
 }
@@ -49,9 +49,8 @@ std::string curvatureErrorText(const std::vector<study::CurvatureErrorCurve>& cu
   std::ostringstream out;
   out << "\nError of the map against error of the curvature: five_sections, trained with the right "
          "curvatures, told wrong ones\n";
-  table(out, "RMSE [kPa]", curves, [](const study::CurvatureErrorScore& score) {
-    return settings::fixedText(score.rmse / kKilopascal, 1);
-  });
+  table(out, "RMSE [kPa]", curves,
+        [](const study::CurvatureErrorScore& score) { return settings::fixedText(score.rmse / 1e3, 1); });
   table(out, "RMSE [% of range]", curves,
         [](const study::CurvatureErrorScore& score) { return settings::fixedText(score.rmse_percent, 2); });
   table(out,

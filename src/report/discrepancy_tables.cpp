@@ -7,8 +7,6 @@ namespace fsr::report {
 
 namespace {
 
-constexpr double kPercent = 100;
-
 // A number, or nothing if there is no value: spreadsheets read this as an empty cell.
 std::string cell(double value) {
   return std::isfinite(value) ? settings::numberText(value) : "";
@@ -24,7 +22,7 @@ std::string curveTable(const discrepancy::ResidualCurve& curve) {
   for (std::size_t i = 0; i < curve.at.size(); ++i) {
     text += cell(curve.at[i]);
     for (const auto* values : {&curve.before, &curve.after, &curve.error}) {
-      text += "," + cell(kPercent * at(*values, i));
+      text += "," + cell(100 * at(*values, i));
     }
     text += '\n';
   }
@@ -33,8 +31,8 @@ std::string curveTable(const discrepancy::ResidualCurve& curve) {
 
 std::string gapRow(const std::string& name, double value, const discrepancy::Interval& interval,
                    double pressure) {
-  return name + "," + cell(kPercent * value) + "," + cell(kPercent * interval.low) + "," +
-         cell(kPercent * interval.high) + "," + cell(pressure) + "\n";
+  return name + "," + cell(100 * value) + "," + cell(100 * interval.low) + "," + cell(100 * interval.high) +
+         "," + cell(pressure) + "\n";
 }
 
 std::string gapTable(const discrepancy::Gap& gap) {
@@ -50,7 +48,7 @@ std::string candidatesTable(const std::vector<discrepancy::CandidateScore>& cand
     std::string ids;
     for (const std::string& id : candidate.ids) ids += (ids.empty() ? "" : " + ") + id;
     text += ids + "," + candidate.outcome + "," + cell(candidate.nats) + "," + cell(candidate.p) + "," +
-            cell(candidate.z) + "," + cell(kPercent * candidate.share_of_explainable) + "," +
+            cell(candidate.z) + "," + cell(100 * candidate.share_of_explainable) + "," +
             cell(candidate.at_map) + "\n";
   }
   return text;

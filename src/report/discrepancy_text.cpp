@@ -13,12 +13,6 @@ namespace {
 using settings::fixedText;
 using settings::percentText;
 
-std::string joined(const std::vector<std::string>& items, const std::string& between = ", ") {
-  std::string all;
-  for (const std::string& item : items) all += (all.empty() ? "" : between) + item;
-  return all;
-}
-
 // "Common trace explained on each condition with sizes fitted to the others: 93 % (flat 95 %, bent 90 %)."
 std::string foretoldLine(const discrepancy::HeldOutGap& held) {
   std::vector<std::string> parts;

@@ -25,12 +25,6 @@ std::string roundedPercent(double share, int digits = 2) {
   return settings::roundedText(kPercent * share, digits) + " %";
 }
 
-std::string joined(const std::vector<std::string>& items, const std::string& between = ", ") {
-  std::string all;
-  for (const std::string& item : items) all += (all.empty() ? "" : between) + item;
-  return all;
-}
-
 std::string setsText(const std::vector<std::vector<std::string>>& sets) {
   std::vector<std::string> texts;
   for (const auto& ids : sets) texts.push_back(joined(ids, " + "));
@@ -236,6 +230,12 @@ std::string nextText(const DiscrepancyReport& report) {
 }
 
 }  // namespace
+
+std::string joined(const std::vector<std::string>& items, const std::string& between) {
+  std::string all;
+  for (const std::string& item : items) all += (all.empty() ? "" : between) + item;
+  return all;
+}
 
 std::vector<FirstScreenItem> firstScreen(const DiscrepancyReport& report) {
   const bool first = scattersMore(report);

@@ -9,16 +9,15 @@ namespace fsr::report {
 
 namespace {
 
-constexpr int kNameWidth = 52;
-constexpr double kKilopascal = 1e3;  // [Pa]
+constexpr int kPartWidth = 52;
 constexpr const char* kFamilyNames[] = {"static", "plays", "memories", "both"};
 
-std::string kilopascal(double pressure) {
-  return settings::fixedText(pressure / kKilopascal, 2);
+std::string partKilopascal(double pressure) {
+  return settings::fixedText(pressure / 1e3, 2);
 }
 
 void head(std::ostream& out, const std::string& name) {
-  out << std::left << std::setw(kNameWidth) << name << std::right;
+  out << std::left << std::setw(kPartWidth) << name << std::right;
 }
 
 void protocolTable(std::ostream& out, const std::vector<calibration::HistoryScore::Protocol>& protocols) {
@@ -28,8 +27,8 @@ void protocolTable(std::ostream& out, const std::vector<calibration::HistoryScor
   out << std::setw(10) << "c alone" << '\n';
   for (const auto& protocol : protocols) {
     head(out, protocol.name);
-    for (const double rmse : protocol.rmse) out << std::setw(10) << kilopascal(rmse);
-    out << std::setw(10) << kilopascal(protocol.corrected_rmse) << '\n';
+    for (const double rmse : protocol.rmse) out << std::setw(10) << partKilopascal(rmse);
+    out << std::setw(10) << partKilopascal(protocol.corrected_rmse) << '\n';
   }
 }
 
@@ -44,7 +43,7 @@ std::string historyTable(const std::vector<calibration::HistoryScore::Part>& par
       << std::setw(12) << "number" << '\n';
   for (const auto& part : parts) {
     head(out, part.name);
-    out << std::setw(10) << kilopascal(part.static_rmse) << std::setw(10) << kilopascal(part.rmse)
+    out << std::setw(10) << partKilopascal(part.static_rmse) << std::setw(10) << partKilopascal(part.rmse)
         << std::setw(12) << settings::percentText(part.within_one_deviation) << std::setw(12) << part.readings
         << '\n';
   }
@@ -82,7 +81,8 @@ std::string temperatureText(const calibration::Calibration& calibration) {
   out << std::setw(20) << "without temperature" << std::setw(10) << "with" << '\n';
   for (const auto& group : score.groups) {
     head(out, group.name);
-    out << std::setw(20) << kilopascal(group.without) << std::setw(10) << kilopascal(group.with) << '\n';
+    out << std::setw(20) << partKilopascal(group.without) << std::setw(10) << partKilopascal(group.with)
+        << '\n';
   }
   return out.str();
 }

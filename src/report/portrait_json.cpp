@@ -6,27 +6,27 @@ namespace fsr::report {
 
 namespace {
 
-using nlohmann::json;
+using SortedJson = nlohmann::json;
 
 constexpr double kPerCent = 100;
 constexpr double kPerKilopascal = 1e-3;
 
-json scaled(const std::vector<double>& values, double factor) {
-  json list = json::array();
+SortedJson scaled(const std::vector<double>& values, double factor) {
+  SortedJson list = SortedJson::array();
   for (const double value : values) list.push_back(factor * value);
   return list;
 }
 
-json lines(const std::vector<simulation::PortraitLine>& all, double x_factor, double y_factor) {
-  json list = json::array();
+SortedJson lines(const std::vector<simulation::PortraitLine>& all, double x_factor, double y_factor) {
+  SortedJson list = SortedJson::array();
   for (const simulation::PortraitLine& line : all) {
     list.push_back({{"label", line.label}, {"x", scaled(line.x, x_factor)}, {"y", scaled(line.y, y_factor)}});
   }
   return list;
 }
 
-json map(const std::vector<double>& values, matrix::MatrixSize size) {
-  json rows = json::array();
+SortedJson map(const std::vector<double>& values, matrix::MatrixSize size) {
+  SortedJson rows = SortedJson::array();
   for (std::size_t row = 0; row < size.rows; ++row) {
     const auto first = values.begin() + static_cast<std::ptrdiff_t>(row * size.columns);
     rows.push_back(scaled({first, first + size.columns}, kPerCent));
@@ -37,7 +37,7 @@ json map(const std::vector<double>& values, matrix::MatrixSize size) {
 }  // namespace
 
 std::string portraitJson(const simulation::Portrait& portrait) {
-  const json result = {{"title", portrait.title},
+  const SortedJson result = {{"title", portrait.title},
                        {"response", lines(portrait.response, kPerKilopascal, kPerCent)},
                        {"loop", lines(portrait.loop, kPerKilopascal, kPerCent)},
                        {"hold", lines(portrait.hold, 1, kPerCent)},

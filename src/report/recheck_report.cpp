@@ -14,10 +14,6 @@ namespace {
 using calibration::ChangeModel;
 using calibration::ReadingChange;
 
-std::string kilopascals(double value) {
-  return settings::fixedText(value / 1000, 1) + " kPa";
-}
-
 std::string signedText(double value, int decimals) {
   return (value > 0 ? "+" : "") + settings::fixedText(value, decimals);
 }
@@ -82,9 +78,9 @@ Json mountsJson(const calibration::Recheck& recheck) {
 std::string mountsText(const calibration::MountTest& test) {
   const calibration::CommonChange& sheet = test.sheet;
   std::string text = std::to_string(test.mounts) + (test.mounts == 1 ? " mount has " : " mounts have ") +
-                     kilopascals(sheet.size) + " in common; ";
+                     settings::fixedKilopascals(sheet.size, 1) + " in common; ";
   if (!sheet.scatter.known()) return text + "how much mounts scatter is not known";
-  return text + "mounts scatter by " + kilopascals(sheet.scatter.deviation) + " (" +
+  return text + "mounts scatter by " + settings::fixedKilopascals(sheet.scatter.deviation, 1) + " (" +
          std::to_string(sheet.scatter.freedom) +
          " degrees of freedom), p = " + settings::roundedText(sheet.p, 3);
 }
@@ -95,13 +91,15 @@ std::string recheckText(const calibration::Recheck& recheck) {
   const calibration::CorrectionChoice& choice = recheck.choice;
   std::ostringstream out;
   out << recheck.cycles << " cycles on " << listed(recheck.surfaces) << "; expected RMSE of the map "
-      << kilopascals(recheck.expected) << ", of the tables alone " << kilopascals(choice.expected)
+      << settings::fixedKilopascals(recheck.expected, 1) << ", of the tables alone "
+      << settings::fixedKilopascals(choice.expected, 1)
       << "\nRMSE of the tables alone on cycles that were left out:";
   for (std::size_t m = 0; m < calibration::kChangeModels; ++m) {
     out << (m == 0 ? " without correction " : ", ")
-        << (m == 0 ? "" : modelName(static_cast<ChangeModel>(m)) + " ") << kilopascals(choice.rmse[m]);
+        << (m == 0 ? "" : modelName(static_cast<ChangeModel>(m)) + " ")
+        << settings::fixedKilopascals(choice.rmse[m], 1);
   }
-  out << "; chosen without each cycle " << kilopascals(choice.nested) << " (p "
+  out << "; chosen without each cycle " << settings::fixedKilopascals(choice.nested, 1) << " (p "
       << (choice.p < 1e-4 ? "< 0.0001" : "= " + settings::roundedText(choice.p, 2)) << ")\n";
   if (choice.model != ChangeModel::kNone)
     out << "Best: " << modelName(choice.model) << ", " << changeText(choice.changes) << '\n';

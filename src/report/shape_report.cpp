@@ -17,7 +17,7 @@ const char* verdictName(ShapeVerdict verdict) {
   return verdict == ShapeVerdict::kDisagrees ? "disagrees" : "unknown";
 }
 
-std::string joined(const std::vector<std::string>& names) {
+std::string namesText(const std::vector<std::string>& names) {
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? "" : ", ") + (name.empty() ? "?" : name);
   return text.empty() ? "-" : text;
@@ -77,7 +77,8 @@ std::string shapeText(const compensation::ShapeModel& model,
     number(check.estimate.curvature);
     number(check.estimate.low);
     number(check.estimate.high);
-    out << "  " << std::left << std::setw(10) << verdictName(check.verdict) << joined(check.possible) << '\n';
+    out << "  " << std::left << std::setw(10) << verdictName(check.verdict) << namesText(check.possible)
+        << '\n';
   }
   out << changeTable(model, mounts, left);
   for (const auto& [mount, check] : mounts) {

@@ -19,10 +19,6 @@ using Sentences = std::vector<std::string>;
 
 constexpr std::size_t kUnitsFor95 = 19;  // 19 / (19 + 1) = 95 %
 
-std::string kPa(double pressure) {
-  return roundedText(pressure / 1e3, 4) + " kPa";
-}
-
 std::string listText(const std::vector<std::string>& words) {
   std::string text;
   for (std::size_t w = 0; w < words.size(); ++w)
@@ -191,15 +187,17 @@ struct Words {
   std::string operator()(const simulation::ChamberProtocol& p) const {
     const std::string rate = roundedText(p.fill_rate / 1e3, 3);
     const std::string vent = p.vent_rate == p.fill_rate ? "" : " and " + roundedText(p.vent_rate / 1e3, 3);
-    return std::to_string(p.cycles) + (p.cycles == 1 ? " cycle to " : " cycles to ") + kPa(p.peak) + " at " +
-           rate + vent + " kPa/s, dwells of " + roundedText(p.dwell_peak, 3) + " s";
+    return std::to_string(p.cycles) + (p.cycles == 1 ? " cycle to " : " cycles to ") +
+           settings::roundedKilopascals(p.peak, 4) + " at " + rate + vent + " kPa/s, dwells of " +
+           roundedText(p.dwell_peak, 3) + " s";
   }
   std::string operator()(const simulation::HoldPart& p) const {
-    return "the hold of " + roundedText(p.duration, 4) + " s at " + kPa(p.pressure);
+    return "the hold of " + roundedText(p.duration, 4) + " s at " +
+           settings::roundedKilopascals(p.pressure, 4);
   }
   std::string operator()(const simulation::LoopsPart& p) const {
     return std::to_string(p.loops) + (p.loops == 1 ? " partial loop from " : " partial loops from ") +
-           kPa(p.low) + " to " + kPa(p.high);
+           settings::roundedKilopascals(p.low, 4) + " to " + settings::roundedKilopascals(p.high, 4);
   }
   std::string operator()(const simulation::RestPart& p) const {
     return "the rest of " + roundedText(p.duration, 4) + " s";
@@ -225,7 +223,8 @@ std::vector<std::string> limitsOf(const Prospects& prospects) {
   if (!prospects.curvatures.empty()) {
     sentences.push_back("Curvatures below " + roundedText(prospects.curvatures.front(), 3) + " and above " +
                         roundedText(prospects.curvatures.back(), 3) +
-                        " 1/m are extrapolated, and so are pressures above " + kPa(prospects.highest) + ".");
+                        " 1/m are extrapolated, and so are pressures above " +
+                        settings::roundedKilopascals(prospects.highest, 4) + ".");
   }
   if (prospects.inner() == 0) sentences.emplace_back(kNoInner);
   if (prospects.remounted == 0) sentences.emplace_back(kNoRemount);
@@ -253,7 +252,8 @@ std::vector<std::string> lossesBetween(const Prospects& more, const Prospects& l
   if (less.discrepancy.empty() && more.hold_out > 0 && less.hold_out == 0) sentences.emplace_back(kNoHoldOut);
   tellCurvatures(more, less, sentences);
   if (less.highest < 0.99 * more.highest)
-    sentences.push_back("Pressures above " + kPa(less.highest) + " are extrapolated.");
+    sentences.push_back("Pressures above " + settings::roundedKilopascals(less.highest, 4) +
+                        " are extrapolated.");
   if (more.remounted > 0 && less.remounted == 0) {
     sentences.emplace_back(kNoRemount);
   } else if (less.remounted < more.remounted) {

@@ -21,7 +21,7 @@ const settings::Range kPressure{1e3, simulation::kChamberRating,
                                 "Pa gauge (the chamber is rated at 793 kPa)"};
 const settings::Range kRate{1, 1e7, "Pa/s"};
 const settings::Range kSeconds{0, 86400, "s"};
-const settings::Range kMounts{1, 100, "mounts"};
+const settings::Range kMountsRange{1, 100, "mounts"};
 
 Conditioning readConditioning(const Settings& settings) {
   Conditioning read;
@@ -83,7 +83,7 @@ PlannedSurface readSurface(const Settings& entry, const std::string& folder, mat
     field.resize(field.size() - std::string(", but ").size());
     read.surface = surfaceOfPlan(name, folder, size, origin, field);
   }
-  read.mounts = static_cast<unsigned>(entry.integer("mounts", kMounts, read.mounts));
+  read.mounts = static_cast<unsigned>(entry.integer("mounts", kMountsRange, read.mounts));
   return read;
 }
 

@@ -13,7 +13,7 @@ namespace fsr::session_plan {
 
 namespace {
 
-std::string listText(const std::vector<std::string>& words) {
+std::string commaList(const std::vector<std::string>& words) {
   std::string text;
   for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
   return text;
@@ -25,16 +25,13 @@ std::string items(const std::vector<std::string>& sentences, const std::string& 
   return text;
 }
 
-std::string kPa(double pressure) {
-  return settings::roundedText(pressure / 1e3, 4) + " kPa";
-}
-
 // Few cycles are allowed, but the recordings will be told apart from conditioned ones.
 std::string conditioningText(const SessionPlan& plan) {
   const unsigned cycles = plan.conditioning.cycles;
   if (cycles == 0) return "No conditioning.";
   const std::string text = "Conditioning before the first recording: " + std::to_string(cycles) +
-                           (cycles == 1 ? " cycle to " : " cycles to ") + kPa(conditioningPeak(plan)) + ".";
+                           (cycles == 1 ? " cycle to " : " cycles to ") +
+                           settings::roundedKilopascals(conditioningPeak(plan), 4) + ".";
   if (cycles >= dataset::ConditioningOptions{}.cycles) return text;
   return text + " Makers of sensors ask for four or five: check_bag and train will say \"fewer than four\".";
 }
@@ -47,12 +44,13 @@ std::string needs(const SessionPlan& plan) {
   for (const simulation::ProgramPart& part : plan.program) parts.push_back(partWords(part));
   const bool conditioned = plan.conditioning.cycles > 0;
   std::vector<std::string> sentences = {
-      "Surfaces: " + listText(surfaces) + ".",
-      "Chamber: up to " + kPa(conditioned ? conditioningPeak(plan) : largestPeak(plan)) + ".",
+      "Surfaces: " + commaList(surfaces) + ".",
+      "Chamber: up to " +
+          settings::roundedKilopascals(conditioned ? conditioningPeak(plan) : largestPeak(plan), 4) + ".",
       plan.thermometer ? "A thermometer (topic temperature)." : "No thermometer.",
       conditioningText(plan),
-      "Order: " + listText(order) + ".",
-      "On each mount, " + timeText(recordingDuration(plan)) + ": " + listText(parts) + ". Rest of " +
+      "Order: " + commaList(order) + ".",
+      "On each mount, " + timeText(recordingDuration(plan)) + ": " + commaList(parts) + ". Rest of " +
           settings::roundedText(plan.rest.before) + " s before and " +
           settings::roundedText(plan.rest.after) + " s after."};
   for (const Break& one : plan.breaks)
@@ -96,7 +94,7 @@ std::string planReport(const SessionPlan& plan) {
   std::string text = headline(plan) + "\n\nNeeded:\n" + needs(plan);
   text += "\nThe recordings can tell, as far as the protocol decides:\n";
   std::vector<std::string> can;
-  if (!prospects.told.empty()) can.push_back("discrepancy can name " + listText(prospects.told) + ".");
+  if (!prospects.told.empty()) can.push_back("discrepancy can name " + commaList(prospects.told) + ".");
   if (prospects.remounted > 0)
     can.push_back("The error of another mount, on " + std::to_string(prospects.remounted) + " of " +
                   std::to_string(plan.surfaces.size()) +

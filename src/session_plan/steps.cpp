@@ -139,10 +139,6 @@ class MountSteps {
   double pressure_ = 0;  // where the chamber stands [Pa]
 };
 
-std::string kPa(double pressure) {
-  return roundedText(pressure / 1e3, 4) + " kPa";
-}
-
 std::string rate(double rate) {
   return roundedText(rate / 1e3, 3) + " kPa/s";
 }
@@ -156,8 +152,9 @@ std::string countText(const SessionStep& step) {
 }
 
 std::string fillAndVent(const SessionStep& step) {
-  return countText(step) + "fill to " + kPa(step.peak) + " at " + rate(step.fill_rate) + ", hold for " +
-         seconds(step.dwell_peak) + ", vent at " + rate(step.vent_rate) + ".";
+  return countText(step) + "fill to " + settings::roundedKilopascals(step.peak, 4) + " at " +
+         rate(step.fill_rate) + ", hold for " + seconds(step.dwell_peak) + ", vent at " +
+         rate(step.vent_rate) + ".";
 }
 
 }  // namespace
@@ -214,11 +211,12 @@ std::string instruction(const SessionStep& step) {
     case StepKind::kCycle:
       return "Cycle " + fillAndVent(step);
     case StepKind::kHold:
-      return "Hold " + countText(step) + "go to " + kPa(step.peak) + " at " + rate(step.fill_rate) +
-             " and stay for " + seconds(step.dwell_peak) + ".";
+      return "Hold " + countText(step) + "go to " + settings::roundedKilopascals(step.peak, 4) + " at " +
+             rate(step.fill_rate) + " and stay for " + seconds(step.dwell_peak) + ".";
     case StepKind::kLoop:
-      return "Partial loop " + countText(step) + "from " + kPa(step.low) + " to " + kPa(step.peak) +
-             " and back at " + rate(step.fill_rate) + ".";
+      return "Partial loop " + countText(step) + "from " + settings::roundedKilopascals(step.low, 4) +
+             " to " + settings::roundedKilopascals(step.peak, 4) + " and back at " + rate(step.fill_rate) +
+             ".";
     case StepKind::kBreak:
       return "Break of " + roundedText(step.dwell_rest / 60, 3) + " min without load.";
   }

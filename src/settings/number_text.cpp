@@ -31,6 +31,14 @@ std::string roundedText(double value, int digits) {
   return text.str();
 }
 
+std::string fixedKilopascals(double pressure, int decimals) {
+  return fixedText(pressure / 1e3, decimals) + " kPa";
+}
+
+std::string roundedKilopascals(double pressure, int digits) {
+  return roundedText(pressure / 1e3, digits) + " kPa";
+}
+
 std::string megabytesText(std::uint64_t bytes) {
   return fixedText(static_cast<double>(bytes) / 1e6, 1) + " MB";
 }

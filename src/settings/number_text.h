@@ -23,6 +23,11 @@ std::string percentText(double share, int decimals = 1);
 /// would be long otherwise: roundedText(0.012345, 3) = "0.0123", roundedText(1e7) = "1e+07".
 std::string roundedText(double value, int digits = 6);
 
+/// A pressure [Pa] in kPa: fixedKilopascals(12345, 1) = "12.3 kPa", roundedKilopascals(12345, 4) = "12.35
+/// kPa".
+std::string fixedKilopascals(double pressure, int decimals);
+std::string roundedKilopascals(double pressure, int digits);
+
 /// `bytes` in megabytes of 1e6 bytes: "12.3 MB".
 std::string megabytesText(std::uint64_t bytes);
 

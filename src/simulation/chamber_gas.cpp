@@ -10,7 +10,7 @@ namespace {
 
 // State: whether there was a call before, its time [s], its pressure [Pa], and the slow mean of the pressure
 // [Pa].
-enum { kStarted, kTime, kPressure, kSlow, kGasState };
+enum { kGasStarted, kGasTime, kGasPressure, kGasSlow, kGasState };
 
 }  // namespace
 
@@ -32,9 +32,9 @@ double ChamberGas::room(double time) const {
 double ChamberGas::temperature(double time, double pressure) {
   // dT/dt = c dP/dt - T / tau, T above the room. The solution is c times the pressure less its exponential
   // mean.
-  const double slow = state_[kStarted] == 0
-                          ? 0
-                          : cooling_.step(state_[kPressure], pressure, time - state_[kTime], state_[kSlow]);
+  const double slow = state_[kGasStarted] == 0 ? 0
+                                               : cooling_.step(state_[kGasPressure], pressure,
+                                                               time - state_[kGasTime], state_[kGasSlow]);
   state_ = {1, time, pressure, slow};
   return room(time) + climate_.heating * (pressure - slow);
 }

@@ -10,32 +10,32 @@ namespace fsr::simulation {
 
 namespace {
 
-const settings::Range kPressure{0, kChamberRating, "Pa gauge (the chamber is rated at 793 kPa)"};
-const settings::Range kRate{1, 1e7, "Pa/s"};
+const settings::Range kPressureRange{0, kChamberRating, "Pa gauge (the chamber is rated at 793 kPa)"};
+const settings::Range kProgramRate{1, 1e7, "Pa/s"};
 const settings::Range kDuration{0, 1e7, "s"};
 const settings::Range kLoops{1, 1e6, "loops"};
 
 HoldPart readHold(const settings::Settings& settings) {
   HoldPart hold;
-  hold.pressure = settings.number("pressure", kPressure);
-  hold.rate = settings.number("rate", kRate, hold.rate);
+  hold.pressure = settings.number("pressure", kPressureRange);
+  hold.rate = settings.number("rate", kProgramRate, hold.rate);
   hold.duration = settings.number("duration", kDuration);
   return hold;
 }
 
 LoopsPart readLoops(const settings::Settings& settings) {
   LoopsPart loops;
-  loops.low = settings.number("low", kPressure);
-  loops.high = settings.number("high", kPressure);
+  loops.low = settings.number("low", kPressureRange);
+  loops.high = settings.number("high", kPressureRange);
   if (loops.high <= loops.low) throw settings.error("high", "must be above low");
-  loops.rate = settings.number("rate", kRate, loops.rate);
+  loops.rate = settings.number("rate", kProgramRate, loops.rate);
   loops.loops = static_cast<unsigned>(settings.integer("loops", kLoops));
   return loops;
 }
 
 RestPart readRest(const settings::Settings& settings) {
   RestPart rest;
-  rest.rate = settings.number("rate", kRate, rest.rate);
+  rest.rate = settings.number("rate", kProgramRate, rest.rate);
   rest.duration = settings.number("duration", kDuration);
   return rest;
 }

@@ -18,11 +18,11 @@ namespace {
 
 const matrix::Surface kFlat{"flat", 1, {matrix::Curvature{}}, {}};
 const matrix::Surface kBent{"cylinder of 5 cm", 2, {matrix::Curvature{20, 0, 0}}, {}};
-constexpr double kSlow = 17e3, kFast = 60e3;        // [Pa/s]
-constexpr double kPeak = 620e3, kLevel = 300e3;     // [Pa]
-constexpr double kHold = 900;                       // [s]
-constexpr double kWarming = 5;                      // of the room while it is held and at rest [K]
-constexpr double kPeriod = 0.2, kLongPeriod = 0.5;  // from scan to scan [s]
+constexpr double kSlow = 17e3, kFast = 60e3;             // [Pa/s]
+constexpr double kPortraitPeak = 620e3, kLevel = 300e3;  // [Pa]
+constexpr double kHold = 900;                            // [s]
+constexpr double kWarming = 5;                           // of the room while it is held and at rest [K]
+constexpr double kPeriod = 0.2, kLongPeriod = 0.5;       // from scan to scan [s]
 
 /// One experiment.
 struct Trial {
@@ -91,7 +91,7 @@ std::vector<PortraitLine> responses(const SimulationSettings& with, const Simula
   const std::size_t taxels = with.layout.size.taxels();
   std::vector<PortraitLine> lines;
   for (const matrix::Surface& surface : {kFlat, kBent}) {
-    Trial trial{pressureProfile(ChamberProgram{HoldPart{kPeak, kSlow, 0}}), kPeriod, surface, {}, 0};
+    Trial trial{pressureProfile(ChamberProgram{HoldPart{kPortraitPeak, kSlow, 0}}), kPeriod, surface, {}, 0};
     lines.push_back(
         line(surface.name + ", without", trial, run(without, trial), taxels, taxels / 2, Axis::kPressure));
     lines.push_back(line(surface.name, trial, run(with, trial), taxels, taxels / 2, Axis::kPressure));
@@ -100,7 +100,8 @@ std::vector<PortraitLine> responses(const SimulationSettings& with, const Simula
 }
 
 Trial cycles() {
-  const ChamberProtocol slow{kPeak, kSlow, kSlow, 1, 1, 3}, fast{kPeak, kFast, kFast, 1, 1, 1};
+  const ChamberProtocol slow{kPortraitPeak, kSlow, kSlow, 1, 1, 3},
+      fast{kPortraitPeak, kFast, kFast, 1, 1, 1};
   return {pressureProfile(ChamberProgram{slow, fast}), kPeriod, kBent, {}, 0};
 }
 

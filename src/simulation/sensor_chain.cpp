@@ -13,7 +13,7 @@ namespace fsr::simulation {
 namespace {
 
 const char* const kClock = "clock";  // of the chain itself, in its state
-enum { kStarted, kLastTime, kClockState };
+enum { kClockStarted, kLastTime, kClockState };
 
 std::vector<double> principalCurvatures(const matrix::Surface& surface, std::size_t taxels) {
   if (surface.curvature.size() != 1 && surface.curvature.size() != taxels) {
@@ -104,7 +104,7 @@ void SensorChain::mount(const matrix::Surface& surface, const LoadPattern& patte
 
 RigSample SensorChain::clocked(const RigSample& sample) {
   RigSample with_clock = sample;
-  with_clock.first = clock_[kStarted] == 0;
+  with_clock.first = clock_[kClockStarted] == 0;
   with_clock.elapsed = with_clock.first ? 0 : std::max(sample.time - clock_[kLastTime], 0.0);
   clock_ = {1, sample.time};
   return with_clock;

@@ -10,7 +10,7 @@ namespace fsr::statistics {
 
 namespace {
 
-constexpr double kNormal95 = 1.959963984540054;  // scipy.stats.norm.ppf(0.975)
+constexpr double kBinNormal95 = 1.959963984540054;  // scipy.stats.norm.ppf(0.975)
 constexpr int kCellShift = 23 - 12;  // a float has 23 bits below its octave, of which 12 number the cell
 
 std::uint32_t bitsOf(float value) {
@@ -115,8 +115,8 @@ ErrorSummary ErrorTally::summarise() const {
   summary.bias = moments_.mean;
   summary.rmse = std::sqrt(moments_.squares / moments_.count + moments_.mean * moments_.mean);
   if (summary.count > 1) {
-    summary.limit_low = summary.bias - kNormal95 * moments_.deviation();
-    summary.limit_high = summary.bias + kNormal95 * moments_.deviation();
+    summary.limit_low = summary.bias - kBinNormal95 * moments_.deviation();
+    summary.limit_high = summary.bias + kBinNormal95 * moments_.deviation();
   }
   summary.p95_absolute = sizes_.quantile(0.95);
   return summary;

@@ -4,18 +4,14 @@
 #include <cmath>
 #include <iterator>
 
+#include "statistics/samples.h"
+
 namespace fsr::statistics {
 
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kNormal95 = 1.959963984540054;  // scipy.stats.norm.ppf(0.975)
-
-double meanOf(const std::vector<double>& values) {
-  double sum = 0;
-  for (const double value : values) sum += value;
-  return sum / static_cast<double>(values.size());
-}
 
 double squaresAbout(const std::vector<double>& values, double centre) {
   double sum = 0;

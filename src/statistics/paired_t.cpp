@@ -11,7 +11,7 @@ namespace fsr::statistics {
 
 namespace {
 
-const char* const kName = "paired t test";
+const char* const kPairedT = "paired t test";
 
 TestResult emptyHanded(std::size_t n) {
   TestResult result;
@@ -28,8 +28,8 @@ TestResult emptyHanded(std::size_t n) {
 }  // namespace
 
 PairedT pairedT(const std::vector<double>& first, const std::vector<double>& second) {
-  const std::vector<double> differences = pairedDifferences(first, second, kName);
-  requireSample(differences, 2, kName);
+  const std::vector<double> differences = pairedDifferences(first, second, kPairedT);
+  requireSample(differences, 2, kPairedT);
   const double n = static_cast<double>(differences.size());
 
   PairedT result;
@@ -38,7 +38,7 @@ PairedT pairedT(const std::vector<double>& first, const std::vector<double>& sec
   result.low = result.high = result.mean_difference;
   if (isConstant(differences)) {
     if (result.mean_difference == 0) return result;
-    throw settings::InputError(std::string(kName) + ": all differences are " +
+    throw settings::InputError(std::string(kPairedT) + ": all differences are " +
                                std::to_string(result.mean_difference) +
                                "; it needs differences that are not all equal");
   }

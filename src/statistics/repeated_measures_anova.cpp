@@ -13,7 +13,7 @@ namespace fsr::statistics {
 
 namespace {
 
-const char* const kName = "repeated-measures ANOVA";
+const char* const kAnova = "repeated-measures ANOVA";
 
 /// Orthonormal contrasts between treatments, one a row: Helmert's. [k - 1 x k]
 Eigen::MatrixXd contrasts(Eigen::Index k) {
@@ -91,7 +91,7 @@ SphericityCorrection corrected(const TestResult& f, double epsilon) {
 RepeatedMeasuresAnova flat(std::size_t n, std::size_t k) {
   const auto q = static_cast<double>(k - 1);
   RepeatedMeasuresAnova result;
-  result.test.test = kName;
+  result.test.test = kAnova;
   result.test.symbol = "F";
   result.test.statistic = 0;
   result.test.p = 1;
@@ -114,7 +114,7 @@ double largestMagnitude(const RepeatedMeasures& measures) {
 }  // namespace
 
 RepeatedMeasuresAnova repeatedMeasuresAnova(const RepeatedMeasures& measures) {
-  requireMeasures(measures, 2, 2, kName);
+  requireMeasures(measures, 2, 2, kAnova);
   const Eigen::MatrixXd scores = contrastScores(measures);
   const auto n = static_cast<double>(scores.rows()), q = static_cast<double>(scores.cols());
   const Eigen::RowVectorXd mean = scores.colwise().mean();
@@ -126,7 +126,7 @@ RepeatedMeasuresAnova repeatedMeasuresAnova(const RepeatedMeasures& measures) {
   if (covariance.trace() <= q * rounding * rounding) {
     if (mean.norm() <= std::sqrt(q) * rounding) return result;
     throw settings::InputError(
-        std::string(kName) +
+        std::string(kAnova) +
         ": the treatments differ by the same on every unit; it needs differences that are not all equal");
   }
   const Eigen::VectorXd lambda =

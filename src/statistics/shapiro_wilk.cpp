@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kFewest = 3;
 constexpr std::size_t kMost = 5000;
-const char* const kName = "Shapiro-Wilk test";
+const char* const kShapiroWilk = "Shapiro-Wilk test";
 
 /// Coefficients from the constant term upwards; Royston's C1 to C6 and G.
 double polynomial(std::initializer_list<double> coefficients, double x) {
@@ -97,13 +97,13 @@ std::vector<double> standardised(std::vector<double> sample) {
 }  // namespace
 
 TestResult shapiroWilk(const std::vector<double>& sample) {
-  requireSample(sample, kFewest, kName);
+  requireSample(sample, kFewest, kShapiroWilk);
   if (sample.size() > kMost) {
-    throw settings::InputError(std::string(kName) + ": " + std::to_string(sample.size()) +
+    throw settings::InputError(std::string(kShapiroWilk) + ": " + std::to_string(sample.size()) +
                                " values given, but its approximation holds for at most 5000");
   }
   if (isConstant(sample))
-    throw settings::InputError(std::string(kName) +
+    throw settings::InputError(std::string(kShapiroWilk) +
                                ": all values are equal; it needs values that are not all equal");
 
   const double one_minus_w = std::max(0.0, oneMinusW(standardised(sample)));

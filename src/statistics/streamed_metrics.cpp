@@ -8,8 +8,8 @@ namespace fsr::statistics {
 
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr double kNormal95 = 1.959963984540054;  // scipy.stats.norm.ppf(0.975)
+constexpr double kNoFigure = std::numeric_limits<double>::quiet_NaN();
+constexpr double kStreamedNormal95 = 1.959963984540054;  // scipy.stats.norm.ppf(0.975)
 constexpr double kQuantile = 0.95;
 constexpr std::size_t kHalf = 65536;  // values of 16 bits
 
@@ -35,11 +35,11 @@ void ReferenceScatter::addAgain(double reference) {
 }
 
 double ReferenceScatter::rSquared(double squared_errors) const {
-  return number_ >= 2 && squares_ > 0 ? 1.0 - squared_errors / squares_ : kNone;
+  return number_ >= 2 && squares_ > 0 ? 1.0 - squared_errors / squares_ : kNoFigure;
 }
 
 double ReferenceScatter::rmsePercent(double squared_errors) const {
-  return range() > 0 ? 100.0 * std::sqrt(squared_errors / number_) / range() : kNone;
+  return range() > 0 ? 100.0 * std::sqrt(squared_errors / number_) / range() : kNoFigure;
 }
 
 StreamedSummary::StreamedSummary() : upper_(kHalf / 2) {}
@@ -91,9 +91,9 @@ ErrorSummary StreamedSummary::summarise() const {
   const auto number = static_cast<double>(count_);
   summary.bias = sum_ / number;
   summary.rmse = std::sqrt(squares_ / number);
-  const double deviation = count_ < 2 ? kNone : std::sqrt(squares_about_mean_ / (number - 1));
-  summary.limit_low = summary.bias - kNormal95 * deviation;
-  summary.limit_high = summary.bias + kNormal95 * deviation;
+  const double deviation = count_ < 2 ? kNoFigure : std::sqrt(squares_about_mean_ / (number - 1));
+  summary.limit_low = summary.bias - kStreamedNormal95 * deviation;
+  summary.limit_high = summary.bias + kStreamedNormal95 * deviation;
   const double place = kQuantile * (number - 1), fraction = place - std::floor(place);
   const double below = sizeOf(ranks_[0]), above = sizeOf(ranks_[1]);
   summary.p95_absolute = fraction == 0 ? below : below + fraction * (above - below);

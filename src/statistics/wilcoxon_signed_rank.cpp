@@ -14,7 +14,7 @@ namespace fsr::statistics {
 
 namespace {
 
-const char* const kName = "Wilcoxon signed-rank test";
+const char* const kWilcoxon = "Wilcoxon signed-rank test";
 constexpr std::size_t kMostExact = 1000;  // 2^-1000 is still a double
 
 struct SignedRanks {
@@ -69,7 +69,7 @@ double normalP(const SignedRanks& ranks) {
 bool goesExact(WilcoxonMethod method, std::size_t n) {
   if (method != WilcoxonMethod::kExact) return method == WilcoxonMethod::kAuto && n < kWilcoxonExactBelow;
   if (n <= kMostExact) return true;
-  throw settings::InputError(std::string(kName) + ": exact p requested for " + std::to_string(n) +
+  throw settings::InputError(std::string(kWilcoxon) + ": exact p requested for " + std::to_string(n) +
                              " differences; it is computed for at most " + std::to_string(kMostExact));
 }
 
@@ -77,7 +77,7 @@ bool goesExact(WilcoxonMethod method, std::size_t n) {
 
 TestResult wilcoxonSignedRank(const std::vector<double>& first, const std::vector<double>& second,
                               WilcoxonMethod method) {
-  std::vector<double> differences = pairedDifferences(first, second, kName);
+  std::vector<double> differences = pairedDifferences(first, second, kWilcoxon);
   TestResult result;
   result.test = "Wilcoxon signed-rank";
   result.symbol = "V";

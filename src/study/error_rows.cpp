@@ -6,12 +6,12 @@ namespace fsr::study {
 
 namespace {
 
-constexpr std::size_t kMostInMemory = 8u << 20;  // of all rows [bytes]
+constexpr std::size_t kMostRows = 8u << 20;  // of all rows [bytes]
 
 }  // namespace
 
 ErrorRows::ErrorRows(std::size_t taxels, std::size_t length) : taxels_(taxels), length_(length) {
-  if (taxels * length * sizeof(float) <= kMostInMemory) {
+  if (taxels * length * sizeof(float) <= kMostRows) {
     memory_.resize(taxels * length);
     return;
   }

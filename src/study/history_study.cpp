@@ -28,7 +28,7 @@ bool setTrainedCodes(const regression::CodeHistogram& readings, StaticAnswer& an
   return true;
 }
 
-constexpr std::size_t kMostInMemory = 8u << 20;  // of a recording's corrected pressures [bytes]
+constexpr std::size_t kMostCorrected = 8u << 20;  // of a recording's corrected pressures [bytes]
 
 // The corrected pressures of the scans of one recording [Pa]; NaN = the static answer stands.
 class CorrectedPressures {
@@ -49,7 +49,7 @@ class CorrectedPressures {
   double operator[](std::size_t scan) { return *read_[scan]; }
 
  private:
-  dataset::RowSpool<double> rows_{kMostInMemory};
+  dataset::RowSpool<double> rows_{kMostCorrected};
   dataset::RowSpool<double>::Reader read_{rows_};
 };
 

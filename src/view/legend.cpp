@@ -10,19 +10,19 @@ namespace fsr::view {
 
 namespace {
 
-constexpr Colour kPaper{32, 32, 32};
-constexpr Colour kInk{240, 240, 240};
-constexpr int kMargin = 10;      // [pixels], as are the following lengths
-constexpr int kLineHeight = 16;  // of text
+constexpr Colour kLegendPaper{32, 32, 32};
+constexpr Colour kLegendInk{240, 240, 240};
+constexpr int kLegendMargin = 10;      // [pixels], as are the following lengths
+constexpr int kLegendLineHeight = 16;  // of text
 constexpr int kWidth = 206;
-constexpr int kBarWidth = 22;
+constexpr int kLegendBarWidth = 22;
 constexpr int kBarHeight = 190;
 constexpr int kKeyLeft = 94;  // right of the bar's labels
-constexpr int kTickLength = 4;
-constexpr int kKeySquare = 13;
+constexpr int kLegendTickLength = 4;
+constexpr int kLegendKeySquare = 13;
 constexpr int kMostTicks = 7;
 
-int rounded(double value) {
+int pixelOf(double value) {
   return static_cast<int>(std::lround(value));
 }
 
@@ -35,9 +35,9 @@ void drawColourBar(const PressureScale& scale, Pixel corner, int width, int heig
   }
   for (const Tick& tick : ticks(scale, kMostTicks)) {
     const double part = (tick.pressure - scale.low) / (scale.high - scale.low);
-    const int y = corner.y + std::min(height - 1, rounded((1 - part) * height));
-    image.fill({corner.x + width, y}, kTickLength, 1, ink);
-    image.text({corner.x + width + kTickLength + 3, y - Image::kTextHeight / 2}, tick.label, ink);
+    const int y = corner.y + std::min(height - 1, pixelOf((1 - part) * height));
+    image.fill({corner.x + width, y}, kLegendTickLength, 1, ink);
+    image.text({corner.x + width + kLegendTickLength + 3, y - Image::kTextHeight / 2}, tick.label, ink);
   }
 }
 
@@ -47,13 +47,13 @@ void drawKey(Pixel corner, int in_a_row, int width, Colour ink, Image& image) {
     const int n = static_cast<int>(i);
     const Pixel square{corner.x + width * (n % in_a_row), corner.y + kKeyRowHeight * (n / in_a_row)};
     const Colour under = look == TaxelLook::kNoReading ? kNoReadingColour : Colour{72, 72, 72};
-    image.fill(square, kKeySquare, kKeySquare, under);
+    image.fill(square, kLegendKeySquare, kLegendKeySquare, under);
     const auto at = [&](matrix::Position p) {
-      return Pixel{square.x + rounded((p.x + 0.5) * (kKeySquare - 1)),
-                   square.y + rounded((p.y + 0.5) * (kKeySquare - 1))};
+      return Pixel{square.x + pixelOf((p.x + 0.5) * (kLegendKeySquare - 1)),
+                   square.y + pixelOf((p.y + 0.5) * (kLegendKeySquare - 1))};
     };
     for (const Stroke& stroke : mark(look)) image.line(at(stroke.from), at(stroke.to), ink, 1);
-    image.text({square.x + kKeySquare + 6, square.y}, name(look), ink);
+    image.text({square.x + kLegendKeySquare + 6, square.y}, name(look), ink);
   }
 }
 
@@ -68,18 +68,18 @@ bool operator==(const Legend& a, const Legend& b) {
 
 Image drawLegend(const Legend& legend) {
   requireSound(legend.scale);
-  const int heading = kLineHeight * static_cast<int>(legend.lines.size() + 1);
-  Image image(kWidth, 2 * kMargin + heading + kLineHeight + kBarHeight, kPaper);
-  Pixel at{kMargin, kMargin};
+  const int heading = kLegendLineHeight * static_cast<int>(legend.lines.size() + 1);
+  Image image(kWidth, 2 * kLegendMargin + heading + kLegendLineHeight + kBarHeight, kLegendPaper);
+  Pixel at{kLegendMargin, kLegendMargin};
   for (const std::string& line : legend.lines) {
-    image.text(at, line, kInk);
-    at.y += kLineHeight;
+    image.text(at, line, kLegendInk);
+    at.y += kLegendLineHeight;
   }
-  image.text(at, legend.title + " [" + name(legend.scale.unit) + "]", kInk);
-  at.y += kLineHeight + kLineHeight / 2;
-  drawColourBar(legend.scale, at, kBarWidth, kBarHeight, kInk, image);
+  image.text(at, legend.title + " [" + name(legend.scale.unit) + "]", kLegendInk);
+  at.y += kLegendLineHeight + kLegendLineHeight / 2;
+  drawColourBar(legend.scale, at, kLegendBarWidth, kBarHeight, kLegendInk, image);
   const int key_height = kKeyRowHeight * static_cast<int>(markedLooks().size());
-  if (legend.marks) drawKey({kKeyLeft, at.y + kBarHeight - key_height}, 1, 0, kInk, image);
+  if (legend.marks) drawKey({kKeyLeft, at.y + kBarHeight - key_height}, 1, 0, kLegendInk, image);
   return image;
 }
 

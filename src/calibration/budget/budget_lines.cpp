@@ -10,7 +10,7 @@ namespace fsr::calibration {
 
 namespace {
 
-constexpr std::size_t kPoints = kBudgetShares.size();
+constexpr std::size_t kSharesPerLine = kBudgetShares.size();
 const double kNone = std::nan("");
 const double kRectangular = std::sqrt(12.0);  // width of a uniform distribution by its standard deviation
 
@@ -39,7 +39,7 @@ bool anyKnown(const BudgetValues& values) {
 template <typename Value>
 BudgetValues atEach(Value value) {
   BudgetValues values;
-  for (std::size_t p = 0; p < kPoints; ++p) values[p] = value(p);
+  for (std::size_t p = 0; p < kSharesPerLine; ++p) values[p] = value(p);
   return values;
 }
 

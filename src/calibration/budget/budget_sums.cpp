@@ -7,18 +7,18 @@ namespace fsr::calibration {
 
 namespace {
 
-constexpr std::size_t kPoints = kBudgetShares.size();
+constexpr std::size_t kBudgetPoints = kBudgetShares.size();
 
 }  // namespace
 
 BudgetScale::BudgetScale(const TrainedInterval& trained)
     : range(trained.high - trained.low), highest(trained.high), pressure{} {
-  for (std::size_t p = 0; p < kPoints; ++p) pressure[p] = trained.low + kBudgetShares[p] * range;
+  for (std::size_t p = 0; p < kBudgetPoints; ++p) pressure[p] = trained.low + kBudgetShares[p] * range;
 }
 
 std::size_t BudgetScale::pointOf(double at) const {
   std::size_t point = 0;
-  while (point < kPoints && !(std::abs(at - pressure[point]) <= kHalfWindow * range)) ++point;
+  while (point < kBudgetPoints && !(std::abs(at - pressure[point]) <= kHalfWindow * range)) ++point;
   return point;
 }
 
@@ -36,7 +36,7 @@ void BudgetPoint::add(const BudgetPoint& more) {
 }
 
 void addSums(const BudgetSums& more, BudgetSums& sums) {
-  for (std::size_t p = 0; p < kPoints; ++p) sums[p].add(more[p]);
+  for (std::size_t p = 0; p < kBudgetPoints; ++p) sums[p].add(more[p]);
 }
 
 CodeSpan::CodeSpan(const regression::CodeTable& table, const BudgetScale& scale, std::size_t point) {
@@ -54,8 +54,12 @@ CodeSpan::CodeSpan(const regression::CodeTable& table, const BudgetScale& scale,
 
 BudgetTally::BudgetTally(const BudgetScale& scale, const std::vector<BudgetCycle>& cycles,
                          const regression::CodeTable& table)
-    : scale_(scale), cycles_(cycles), table_(table), step_{}, cells_(kPoints * cycles.size() * kDirections) {
-  for (std::size_t p = 0; p < kPoints; ++p) step_[p] = CodeSpan(table, scale, p).step;
+    : scale_(scale),
+      cycles_(cycles),
+      table_(table),
+      step_{},
+      cells_(kBudgetPoints * cycles.size() * kDirections) {
+  for (std::size_t p = 0; p < kBudgetPoints; ++p) step_[p] = CodeSpan(table, scale, p).step;
   for (const BudgetCycle& cycle : cycles) {
     if (mount_of_session_.size() <= cycle.session) mount_of_session_.resize(cycle.session + 1);
     mount_of_session_[cycle.session] = cycle.mount;
@@ -65,7 +69,7 @@ BudgetTally::BudgetTally(const BudgetScale& scale, const std::vector<BudgetCycle
 void BudgetTally::add(const TrainingScan& scan, double error) {
   addDwell(scan);
   const std::size_t point = scale_.pointOf(regression::fromFixed(scan.pressure));
-  if (point == kPoints || scan.direction == statistics::LoadDirection::kNone) {
+  if (point == kBudgetPoints || scan.direction == statistics::LoadDirection::kNone) {
     last_cell_ = nullptr;
     return;
   }
@@ -101,7 +105,7 @@ void BudgetTally::endDwell() {
   const double pressure = dwell_pressure_ / dwell_.count;
   std::size_t nearest = 0;
   const auto distance = [&](std::size_t p) { return std::abs(pressure - scale_.pressure[p]); };
-  for (std::size_t p = 1; p < kPoints; ++p) {
+  for (std::size_t p = 1; p < kBudgetPoints; ++p) {
     if (distance(p) < distance(nearest)) nearest = p;
   }
   if (distance(nearest) <= BudgetScale::kDwellReach * scale_.range && !std::isnan(step_[nearest])) {
@@ -223,7 +227,7 @@ void BudgetTally::addFirstCycles(std::size_t point) {
 
 BudgetSums BudgetTally::sums() {
   if (dwell_.count > 0) endDwell();
-  for (std::size_t point = 0; point < kPoints; ++point) {
+  for (std::size_t point = 0; point < kBudgetPoints; ++point) {
     addSessions(sidesOf(point), sums_[point]);
     addFirstCycles(point);
   }

@@ -12,10 +12,6 @@ namespace {
 constexpr const char* kNewMount = "a new mount";
 constexpr double kStandsOut = 2;  // as k = 2 of the budget: the RMSE of a mount as a multiple of the others'
 
-std::string kilopascalText(double error) {
-  return settings::fixedText(error / 1e3, 1) + " kPa";
-}
-
 // Of all mounts but the worst, each with the same weight [Pa].
 double rmseOfOthers(const std::vector<NewMountErrors::Mount>& mounts, const NewMountErrors::Mount& worst) {
   double squares = 0;
@@ -29,7 +25,8 @@ std::string memoryText(const Calibration& calibration) {
   if (!calibration.history.present() || calibration.scores.history.parts.empty()) return "";
   const HistoryScore::Part& all = calibration.scores.history.parts.front();
   return " before the sheet's memory is settled (with it, the RMSE on left-out protocols falls from " +
-         kilopascalText(all.static_rmse) + " to " + kilopascalText(all.rmse) + ")";
+         settings::fixedKilopascals(all.static_rmse, 1) + " to " + settings::fixedKilopascals(all.rmse, 1) +
+         ")";
 }
 
 // What to do where no mount stands out.
@@ -49,7 +46,8 @@ std::string mountsNote(const Calibration& calibration, const NewMountErrors& err
   return "on a new mount of a known surface 68 % of the readings err by at most " +
          errorText(errors.within[0], range) + " and 95 % by at most " + errorText(errors.within[1], range) +
          memoryText(calibration) + "; worst of " + std::to_string(mounts.size()) + " mounts: " + worst->name +
-         ", RMSE " + kilopascalText(worst->rmse) + ", the others " + kilopascalText(others) + "; next: " +
+         ", RMSE " + settings::fixedKilopascals(worst->rmse, 1) + ", the others " +
+         settings::fixedKilopascals(others, 1) + "; next: " +
          (stands_out
               ? "see whether that mount was as declared (check_bag), and leave it out or record it again"
               : nextStep(calibration));
@@ -64,8 +62,8 @@ std::string cyclesNote(const Calibration& calibration) {
          "new "
          "cycles on the same mounts err by at most " +
          errorText(calibration.scores.whole.errors.whole.all.p95_absolute, calibration.trained.pressure) +
-         "; worst surface: " + worst->condition.surface + ", RMSE " + kilopascalText(rmse(*worst)) +
-         "; next: record each surface on two mounts or more";
+         "; worst surface: " + worst->condition.surface + ", RMSE " +
+         settings::fixedKilopascals(rmse(*worst), 1) + "; next: record each surface on two mounts or more";
 }
 
 }  // namespace
@@ -90,8 +88,8 @@ std::string newMountNote(const ErrorBudget& budget) {
 }
 
 std::string errorText(double error, const TrainedInterval& range) {
-  return kilopascalText(error) + " (" + settings::percentText(error / (range.high - range.low)) +
-         " of the range)";
+  return settings::fixedKilopascals(error, 1) + " (" +
+         settings::percentText(error / (range.high - range.low)) + " of the range)";
 }
 
 }  // namespace fsr::calibration

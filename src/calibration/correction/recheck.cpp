@@ -12,10 +12,6 @@ namespace fsr::calibration {
 
 namespace {
 
-std::string kilopascals(double value) {
-  return settings::fixedText(value / 1000, 1) + " kPa";
-}
-
 // Empty = the correction is worth a child; else why it is not.
 std::string whyNot(const CorrectionChoice& choice, const RecheckOptions& options) {
   const double before = choice.rmse[0];
@@ -27,9 +23,9 @@ std::string whyNot(const CorrectionChoice& choice, const RecheckOptions& options
            ")";
   }
   if (!(before > options.worth * choice.nested)) {
-    return "a correction would lower the error from " + kilopascals(before) + " to " +
-           kilopascals(choice.nested) + " only, less than " + settings::fixedText(options.worth, 1) +
-           " times";
+    return "a correction would lower the error from " + settings::fixedKilopascals(before, 1) + " to " +
+           settings::fixedKilopascals(choice.nested, 1) + " only, less than " +
+           settings::fixedText(options.worth, 1) + " times";
   }
   return "";
 }
@@ -66,7 +62,8 @@ void makeChild(const Calibration& parent, const std::vector<dataset::Recording>&
   recheck.child->correction = correctionOf(parent, recheck, recordings, options.date);
   recheck.verdict = RecheckVerdict::kCorrected;
   recheck.reasons = {"on cycles that were left out, the correction lowers the error from " +
-                     kilopascals(choice.rmse[0]) + " to " + kilopascals(choice.nested) +
+                     settings::fixedKilopascals(choice.rmse[0], 1) + " to " +
+                     settings::fixedKilopascals(choice.nested, 1) +
                      " (p = " + settings::roundedText(choice.p, 2) + ")"};
 }
 
@@ -79,9 +76,10 @@ std::vector<std::string> faultsOf(const Calibration& best, const std::vector<dat
   std::vector<std::string> faults = recheck.check.reasons;
   // The deviations of a child have grown with its error, so it is compared with those of the parent.
   if (held_out > options.check.rmse_ratio * choice.expected) {
-    faults.insert(faults.begin(), "the error on cycles that were left out is " + kilopascals(held_out) +
-                                      ", more than " + settings::fixedText(options.check.rmse_ratio, 1) +
-                                      " times the expected " + kilopascals(choice.expected));
+    faults.insert(faults.begin(),
+                  "the error on cycles that were left out is " + settings::fixedKilopascals(held_out, 1) +
+                      ", more than " + settings::fixedText(options.check.rmse_ratio, 1) +
+                      " times the expected " + settings::fixedKilopascals(choice.expected, 1));
   }
   return faults;
 }
@@ -106,9 +104,10 @@ bool mountsMayExplain(const Calibration& parent, const CorrectionFit& fit, const
 }
 
 std::string mayBeMounts(const CommonChange& change, const RecheckOptions& options) {
-  return kilopascals(change.size) + ", may be the mounts alone: they scatter by " +
-         kilopascals(change.scatter.deviation) + " (p = " + settings::roundedText(change.p, 3) +
-         ", needed: below " + settings::roundedText(options.mount_error_rate, 2) + ")";
+  return settings::fixedKilopascals(change.size, 1) + ", may be the mounts alone: they scatter by " +
+         settings::fixedKilopascals(change.scatter.deviation, 1) +
+         " (p = " + settings::roundedText(change.p, 3) + ", needed: below " +
+         settings::roundedText(options.mount_error_rate, 2) + ")";
 }
 
 // The sentence of a correction that mounts may explain.
@@ -119,10 +118,11 @@ std::string undecided(const Recheck& recheck, const RecheckOptions& options) {
            "; record more new mounts and give all the bags";
   }
   const CorrectionChoice& choice = recheck.choice;
-  const std::string before = kilopascals(choice.rmse[0]);
+  const std::string before = settings::fixedKilopascals(choice.rmse[0], 1);
   return (choice.model == ChangeModel::kNone
-              ? "the error is " + before + ", expected: " + kilopascals(choice.expected)
-              : "a correction would lower the error from " + before + " to " + kilopascals(choice.nested)) +
+              ? "the error is " + before + ", expected: " + settings::fixedKilopascals(choice.expected, 1)
+              : "a correction would lower the error from " + before + " to " +
+                    settings::fixedKilopascals(choice.nested, 1)) +
          ", but one new mount cannot be told from a change of the sheet, because the training had one mount "
          "of each surface, too; record two more new mounts with mount numbers of their own and give all the "
          "bags, or say that the sheet was not taken out since the training (--same-mount, same_mount:=true)";

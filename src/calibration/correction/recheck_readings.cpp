@@ -24,10 +24,6 @@ constexpr double kLeastSpan = 0.75;         // of a cycle, share of the trained 
 constexpr double kBottom = 0.25;            // share of a cycle's span in which it begins and ends
 constexpr std::size_t kSlopeWindows = 256;  // windows of a slope in the full scale
 
-std::string kilopascals(double value) {
-  return settings::fixedText(value / 1000, 0) + " kPa";
-}
-
 void requireSameBoard(const Calibration& parent, const dataset::Recording& recording) {
   const std::string &serial = recording.sensor.serial, &wanted = parent.sensor.serial;
   if (serial.empty() || wanted.empty() || serial == wanted) return;
@@ -121,7 +117,7 @@ class Gathering {
   RecheckReadings result() {
     if (result_.cycles() < kLeastCycles) {
       throw settings::InputError("a recheck needs at least " + std::to_string(kLeastCycles) +
-                                 " cycles that span " + kilopascals(least_) +
+                                 " cycles that span " + settings::fixedKilopascals(least_, 0) +
                                  ", a quarter of the trained range, but the bags have " +
                                  std::to_string(result_.cycles()) + "; record more cycles on one surface");
     }

@@ -10,8 +10,8 @@ namespace fsr::calibration {
 
 namespace {
 
-constexpr const char* kGroup = "/budget";
-const std::string kPath = "/budget/";
+constexpr const char* kBudgetGroup = "/budget";
+const std::string kBudgetPath = "/budget/";
 constexpr const char* kIntervals = "/budget/intervals";
 const std::string kIntervalPath = "/budget/intervals/";
 constexpr const char* kCycles = "cycles";
@@ -154,7 +154,8 @@ Value named(const std::string& name, const char* what, std::string (*nameOf)(Val
     if (nameOf(value) == name) return value;
     names += (names.empty() ? "" : ", ") + nameOf(value);
   }
-  throw settings::InputError("its " + kPath + what + " has \"" + name + "\", but must be one of " + names);
+  throw settings::InputError("its " + kBudgetPath + what + " has \"" + name + "\", but must be one of " +
+                             names);
 }
 
 }  // namespace
@@ -171,43 +172,43 @@ void writeBudget(const ErrorBudget& budget, hdf5::Writer& writer) {
     standard.insert(standard.end(), line.standard.begin(), line.standard.end());
     added.insert(added.end(), line.added.begin(), line.added.end());
   }
-  writer.group(kGroup);
+  writer.group(kBudgetGroup);
   writer.attribute(
-      kGroup, "meaning",
+      kBudgetGroup, "meaning",
       "error budget: standard uncertainties, source by source, at 10, 50 and 90 % of the trained "
       "pressures; combined = held_out and what is added, in quadrature");
-  writer.dataset(kPath + "pressure", listOf(budget.pressure), {kPoints}, "Pa", "gauge");
-  writer.dataset(kPath + "held_out", listOf(budget.held_out), {kPoints}, "Pa",
+  writer.dataset(kBudgetPath + "pressure", listOf(budget.pressure), {kPoints}, "Pa", "gauge");
+  writer.dataset(kBudgetPath + "held_out", listOf(budget.held_out), {kPoints}, "Pa",
                  "root mean square of the errors of held-out readings");
-  writer.dataset(kPath + "combined", listOf(budget.combined), {kPoints}, "Pa", "k = 1");
-  writer.texts(kPath + "names", names, "of the lines");
-  writer.texts(kPath + "sources", sources, "where each number comes from");
-  writer.texts(kPath + "parts", parts, "inside the held-out error, partly, added to it, or aside");
-  writer.texts(kPath + "notes", notes, "how it was found, or what is missing");
-  writer.dataset(kPath + "standard", standard, {names.size(), kPoints}, "Pa",
+  writer.dataset(kBudgetPath + "combined", listOf(budget.combined), {kPoints}, "Pa", "k = 1");
+  writer.texts(kBudgetPath + "names", names, "of the lines");
+  writer.texts(kBudgetPath + "sources", sources, "where each number comes from");
+  writer.texts(kBudgetPath + "parts", parts, "inside the held-out error, partly, added to it, or aside");
+  writer.texts(kBudgetPath + "notes", notes, "how it was found, or what is missing");
+  writer.dataset(kBudgetPath + "standard", standard, {names.size(), kPoints}, "Pa",
                  "standard uncertainty [line][pressure]; NaN = not known");
-  writer.dataset(kPath + "added", added, {names.size(), kPoints}, "Pa",
+  writer.dataset(kBudgetPath + "added", added, {names.size(), kPoints}, "Pa",
                  "beyond the held-out error [line][pressure]");
   writeIntervals(budget.intervals, writer);
 }
 
 ErrorBudget readBudget(const hdf5::Reader& reader, matrix::MatrixSize size) {
   ErrorBudget budget;
-  if (!reader.has(kGroup)) return budget;
-  budget.pressure = valuesOf(reader.dataset<double>(kPath + "pressure", {kPoints}), 0);
-  budget.held_out = valuesOf(reader.dataset<double>(kPath + "held_out", {kPoints}), 0);
-  budget.combined = valuesOf(reader.dataset<double>(kPath + "combined", {kPoints}), 0);
-  const std::vector<std::string> names = reader.texts(kPath + "names");
+  if (!reader.has(kBudgetGroup)) return budget;
+  budget.pressure = valuesOf(reader.dataset<double>(kBudgetPath + "pressure", {kPoints}), 0);
+  budget.held_out = valuesOf(reader.dataset<double>(kBudgetPath + "held_out", {kPoints}), 0);
+  budget.combined = valuesOf(reader.dataset<double>(kBudgetPath + "combined", {kPoints}), 0);
+  const std::vector<std::string> names = reader.texts(kBudgetPath + "names");
   const auto textsOf = [&](const char* what) {
-    const std::vector<std::string> texts = reader.texts(kPath + what);
+    const std::vector<std::string> texts = reader.texts(kBudgetPath + what);
     if (texts.size() == names.size()) return texts;
-    throw settings::InputError("its " + kPath + what + " does not have one text for each of " + kPath +
-                               "names");
+    throw settings::InputError("its " + kBudgetPath + what + " does not have one text for each of " +
+                               kBudgetPath + "names");
   };
   const std::vector<std::string> sources = textsOf("sources"), parts = textsOf("parts"),
                                  notes = textsOf("notes");
-  const auto standard = reader.dataset<double>(kPath + "standard", {names.size(), kPoints});
-  const auto added = reader.dataset<double>(kPath + "added", {names.size(), kPoints});
+  const auto standard = reader.dataset<double>(kBudgetPath + "standard", {names.size(), kPoints});
+  const auto added = reader.dataset<double>(kBudgetPath + "added", {names.size(), kPoints});
   for (std::size_t i = 0; i < names.size(); ++i) {
     budget.lines.push_back(
         {names[i],

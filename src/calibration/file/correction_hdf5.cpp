@@ -8,10 +8,10 @@ namespace fsr::calibration {
 
 namespace {
 
-constexpr const char* kGroup = "/correction";
+constexpr const char* kCorrectionGroup = "/correction";
 
 std::vector<double> readColumn(const hdf5::Reader& reader, const char* name, matrix::MatrixSize size) {
-  const std::string path = std::string(kGroup) + "/" + name;
+  const std::string path = std::string(kCorrectionGroup) + "/" + name;
   std::vector<double> values = reader.dataset<double>(path, {size.taxels()});
   if (std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }))
     return values;
@@ -22,7 +22,7 @@ std::vector<double> readColumn(const hdf5::Reader& reader, const char* name, mat
 
 void writeCorrection(const Correction& correction, hdf5::Writer& writer) {
   if (!correction.present()) return;
-  const std::string group = kGroup;
+  const std::string group = kCorrectionGroup;
   writer.group(group);
   writer.attribute(group, "meaning",
                    "the tables are those of the calibration `parent` at (reading - offset) / gain; scores, "
@@ -59,8 +59,8 @@ void writeCorrection(const Correction& correction, hdf5::Writer& writer) {
 
 Correction readCorrection(const hdf5::Reader& reader, matrix::MatrixSize size) {
   Correction correction;
-  if (!reader.has(kGroup)) return correction;
-  const std::string group = kGroup;
+  if (!reader.has(kCorrectionGroup)) return correction;
+  const std::string group = kCorrectionGroup;
   correction.parent = reader.text(group, "parent");
   if (correction.parent.empty())
     throw settings::InputError("its " + group + " parent is empty, but must be the id of a calibration");

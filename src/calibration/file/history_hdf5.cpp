@@ -8,15 +8,15 @@ namespace fsr::calibration {
 
 namespace {
 
-constexpr const char* kGroup = "/history";
-constexpr const char* kScores = "/scores/history";
+constexpr const char* kHistoryGroup = "/history";
+constexpr const char* kHistoryScores = "/scores/history";
 constexpr double kShortest = 1e-6;        // of a time constant [s]
 constexpr double kLargestPressure = 1e9;  // [Pa]
 constexpr double kLargestWeight = 100;
 constexpr std::size_t kMost = 64;  // knots or operators
 
 std::vector<double> column(const std::string& name, const hdf5::Reader& reader) {
-  const std::string path = std::string(kGroup) + "/" + name;
+  const std::string path = std::string(kHistoryGroup) + "/" + name;
   if (!reader.has(path)) return {};
   const std::vector<double> values = reader.dataset<double>(path, reader.shape(path));
   const auto finite = [](double value) { return std::isfinite(value); };
@@ -29,7 +29,7 @@ std::vector<double> column(const std::string& name, const hdf5::Reader& reader) 
 void requireSmall(const std::vector<double>& values, double limit, const char* name) {
   for (const double value : values) {
     if (std::abs(value) > limit)
-      throw settings::InputError("its " + std::string(kGroup) + "/" + name + " has a value of " +
+      throw settings::InputError("its " + std::string(kHistoryGroup) + "/" + name + " has a value of " +
                                  std::to_string(value) + ", which is too large");
   }
 }
@@ -37,14 +37,14 @@ void requireSmall(const std::vector<double>& values, double limit, const char* n
 void requireAbove(const std::vector<double>& values, double limit, const char* name) {
   for (const double value : values) {
     if (!(value > limit))
-      throw settings::InputError("its " + std::string(kGroup) + "/" + name + " has a value of " +
+      throw settings::InputError("its " + std::string(kHistoryGroup) + "/" + name + " has a value of " +
                                  std::to_string(value) + ", which is too small");
   }
 }
 
 void requireLine(const std::vector<double>& knots, const std::vector<double>& values, const char* name) {
   const auto refuse = [&](const char* what) {
-    throw settings::InputError("its " + std::string(kGroup) + "/" + name + " " + what);
+    throw settings::InputError("its " + std::string(kHistoryGroup) + "/" + name + " " + what);
   };
   if (knots.size() < 2 || knots.size() != values.size())
     refuse("needs two knots or more and a value for each");
@@ -60,15 +60,15 @@ void requireLine(const std::vector<double>& knots, const std::vector<double>& va
 
 void writeHistory(const compensation::HistoryModel& model, hdf5::Writer& writer) {
   if (!model.present()) return;
-  writer.group(kGroup);
-  writer.attribute(kGroup, "family", compensation::historyName(model.family));
+  writer.group(kHistoryGroup);
+  writer.attribute(kHistoryGroup, "family", compensation::historyName(model.family));
   writer.attribute(
-      kGroup, "meaning",
+      kHistoryGroup, "meaning",
       "p = x + c(x) + sum_j w_j (play_j(x) - x) + sum_k v_k (ema_k(x) - x), x = answer of the table");
   const auto write = [&](const char* name, const std::vector<double>& values, const char* unit,
                          const char* meaning) {
     if (values.empty()) return;
-    writer.dataset(std::string(kGroup) + "/" + name, values, {values.size()}, unit, meaning);
+    writer.dataset(std::string(kHistoryGroup) + "/" + name, values, {values.size()}, unit, meaning);
   };
   write("knot", model.knot, "Pa", "evenly spaced knots of c");
   write("correction", model.correction, "Pa", "c at each knot, constant beyond");
@@ -83,8 +83,8 @@ void writeHistory(const compensation::HistoryModel& model, hdf5::Writer& writer)
 
 compensation::HistoryModel readHistory(const hdf5::Reader& reader) {
   compensation::HistoryModel model;
-  if (!reader.has(kGroup)) return model;
-  model.family = compensation::historyFromName(reader.text(kGroup, "family"));
+  if (!reader.has(kHistoryGroup)) return model;
+  model.family = compensation::historyFromName(reader.text(kHistoryGroup, "family"));
   if (!model.present()) throw settings::InputError("its /history has no family");
   model.knot = column("knot", reader);
   model.correction = column("correction", reader);
@@ -116,8 +116,8 @@ compensation::HistoryModel readHistory(const hdf5::Reader& reader) {
 
 void writeHistoryScores(const HistoryScore& score, hdf5::Writer& writer) {
   if (score.choice.empty()) return;
-  writer.group(kScores);
-  writer.attribute(kScores, "choice", score.choice);
+  writer.group(kHistoryScores);
+  writer.attribute(kHistoryScores, "choice", score.choice);
   std::vector<std::string> names, parts;
   std::vector<std::uint64_t> readings;
   std::vector<double> rmse, errors;
@@ -131,7 +131,7 @@ void writeHistoryScores(const HistoryScore& score, hdf5::Writer& writer) {
     readings.push_back(part.readings);
     errors.insert(errors.end(), {part.static_rmse, part.rmse, part.within_one_deviation});
   }
-  const std::string group = kScores;
+  const std::string group = kHistoryScores;
   if (!names.empty()) {
     writer.texts(group + "/protocols", names, "each was left out in turn");
     writer.dataset(group + "/protocol_rmse", rmse, {names.size(), 5}, "Pa",
@@ -146,9 +146,9 @@ void writeHistoryScores(const HistoryScore& score, hdf5::Writer& writer) {
 
 HistoryScore readHistoryScores(const hdf5::Reader& reader) {
   HistoryScore score;
-  if (!reader.has(kScores)) return score;
-  score.choice = reader.text(kScores, "choice");
-  const std::string group = kScores;
+  if (!reader.has(kHistoryScores)) return score;
+  score.choice = reader.text(kHistoryScores, "choice");
+  const std::string group = kHistoryScores;
   if (reader.has(group + "/protocols")) {
     const std::vector<std::string> names = reader.texts(group + "/protocols");
     const auto rmse = reader.dataset<double>(group + "/protocol_rmse", {names.size(), 5});

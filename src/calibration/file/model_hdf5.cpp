@@ -5,19 +5,19 @@ namespace fsr::calibration {
 
 namespace {
 
-constexpr char kGroup[] = "/model";
+constexpr char kModelGroup[] = "/model";
 
 class ModelWriter : public regression::OptionWriter {
  public:
   explicit ModelWriter(hdf5::Writer& writer) : writer_(writer) {}
   void text(const std::string& name, const std::string& value) override {
-    writer_.attribute(kGroup, name, value);
+    writer_.attribute(kModelGroup, name, value);
   }
   void integer(const std::string& name, std::uint64_t value) override {
-    writer_.attribute(kGroup, name, value);
+    writer_.attribute(kModelGroup, name, value);
   }
   void number(const std::string& name, double value) override {
-    writer_.attribute(kGroup, name, std::vector<double>{value});
+    writer_.attribute(kModelGroup, name, std::vector<double>{value});
   }
 
  private:
@@ -27,9 +27,9 @@ class ModelWriter : public regression::OptionWriter {
 class ModelReader : public regression::OptionReader {
  public:
   explicit ModelReader(const hdf5::Reader& reader) : reader_(reader) {}
-  std::string text(const std::string& name) const override { return reader_.text(kGroup, name); }
-  std::uint64_t integer(const std::string& name) const override { return reader_.integer(kGroup, name); }
-  double number(const std::string& name) const override { return reader_.numbers(kGroup, name, 1)[0]; }
+  std::string text(const std::string& name) const override { return reader_.text(kModelGroup, name); }
+  std::uint64_t integer(const std::string& name) const override { return reader_.integer(kModelGroup, name); }
+  double number(const std::string& name) const override { return reader_.numbers(kModelGroup, name, 1)[0]; }
 
  private:
   const hdf5::Reader& reader_;
@@ -52,8 +52,8 @@ void writeModel(const Calibration& calibration, hdf5::Writer& writer) {
   const regression::RegressorOptions& options = calibration.regressor;
   writer.attribute("/", "model", options.name);
   writer.attribute("/", "bandwidth", std::vector<double>{options.grnn.bandwidth});
-  writer.group(kGroup);
-  writer.attribute(kGroup, "bandwidth_chosen", calibration.bandwidth_chosen ? 1 : 0);
+  writer.group(kModelGroup);
+  writer.attribute(kModelGroup, "bandwidth_chosen", calibration.bandwidth_chosen ? 1 : 0);
   ModelWriter model(writer);
   for (const regression::RegressorEntry* entry : entriesIn(options)) {
     if (entry->write != nullptr) entry->write(options, model);
@@ -65,8 +65,8 @@ void readModel(const hdf5::Reader& reader, Calibration& calibration) {
   regression::RegressorOptions& options = calibration.regressor;
   options.name = reader.text("/", "model");
   options.grnn.bandwidth = reader.numbers("/", "bandwidth", 1)[0];
-  if (!reader.has(kGroup)) return;  // files of the first version, all of a GRNN with default options
-  calibration.bandwidth_chosen = reader.integer(kGroup, "bandwidth_chosen") != 0;
+  if (!reader.has(kModelGroup)) return;  // files of the first version, all of a GRNN with default options
+  calibration.bandwidth_chosen = reader.integer(kModelGroup, "bandwidth_chosen") != 0;
   const ModelReader model(reader);
   for (const regression::RegressorEntry* entry : entriesIn(options)) {
     if (entry->read != nullptr) entry->read(model, options);

@@ -8,15 +8,15 @@ namespace fsr::calibration {
 
 namespace {
 
-constexpr const char* kGroup = "/session";
-constexpr const char* kScores = "/scores/session";
+constexpr const char* kSessionGroup = "/session";
+constexpr const char* kSessionScores = "/scores/session";
 constexpr const char* kTablesAlone = "tables_alone";
 constexpr const char* kTrained = "trained";
 
 double readError(const hdf5::Reader& reader, const char* name) {
-  const double value = reader.numbers(kGroup, name, 1)[0];
+  const double value = reader.numbers(kSessionGroup, name, 1)[0];
   if (value >= 0 && std::isfinite(value)) return value;
-  throw settings::InputError("its " + std::string(kGroup) + " has a " + name + " of " +
+  throw settings::InputError("its " + std::string(kSessionGroup) + " has a " + name + " of " +
                              std::to_string(value) + " Pa, but it must be finite and not negative");
 }
 
@@ -24,23 +24,23 @@ double readError(const hdf5::Reader& reader, const char* name) {
 
 void writeSessionZero(const SessionZero& zero, hdf5::Writer& writer) {
   if (!zero.expected()) return;
-  writer.group(kGroup);
-  writer.attribute(kGroup, "tare", zero.tare == SessionTare::kTrained ? kTrained : kTablesAlone);
+  writer.group(kSessionGroup);
+  writer.attribute(kSessionGroup, "tare", zero.tare == SessionTare::kTrained ? kTrained : kTablesAlone);
   writer.attribute(
-      kGroup, "meaning",
+      kSessionGroup, "meaning",
       "a tare is due at rest at the start of a session (one surface and mount); RMSE on sessions "
       "that were left out, without and with it");
-  writer.attribute(kGroup, "rmse_without", std::vector<double>{zero.rmse_without});
-  writer.attribute(kGroup, "rmse", std::vector<double>{zero.rmse});
-  writer.attribute(kGroup, "unit", "Pa");
+  writer.attribute(kSessionGroup, "rmse_without", std::vector<double>{zero.rmse_without});
+  writer.attribute(kSessionGroup, "rmse", std::vector<double>{zero.rmse});
+  writer.attribute(kSessionGroup, "unit", "Pa");
 }
 
 SessionZero readSessionZero(const hdf5::Reader& reader) {
   SessionZero zero;
-  if (!reader.has(kGroup)) return zero;
-  const std::string tare = reader.text(kGroup, "tare");
+  if (!reader.has(kSessionGroup)) return zero;
+  const std::string tare = reader.text(kSessionGroup, "tare");
   if (tare != kTablesAlone && tare != kTrained) {
-    throw settings::InputError("its " + std::string(kGroup) + " has a tare of \"" + tare +
+    throw settings::InputError("its " + std::string(kSessionGroup) + " has a tare of \"" + tare +
                                "\", but it must be " + kTablesAlone + " or " + kTrained);
   }
   zero.tare = tare == kTrained ? SessionTare::kTrained : SessionTare::kTablesAlone;
@@ -51,7 +51,7 @@ SessionZero readSessionZero(const hdf5::Reader& reader) {
 
 void writeSessionScores(const SessionScore& score, hdf5::Writer& writer) {
   if (score.choice.empty()) return;
-  const std::string group = kScores;
+  const std::string group = kSessionScores;
   writer.group(group);
   writer.attribute(group, "choice", score.choice);
   if (score.sessions.empty()) return;
@@ -72,8 +72,8 @@ void writeSessionScores(const SessionScore& score, hdf5::Writer& writer) {
 
 SessionScore readSessionScores(const hdf5::Reader& reader) {
   SessionScore score;
-  if (!reader.has(kScores)) return score;
-  const std::string group = kScores;
+  if (!reader.has(kSessionScores)) return score;
+  const std::string group = kSessionScores;
   score.choice = reader.text(group, "choice");
   if (!reader.has(group + "/sessions")) return score;
   const std::vector<std::string> names = reader.texts(group + "/sessions");

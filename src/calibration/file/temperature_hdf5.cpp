@@ -7,13 +7,13 @@ namespace fsr::calibration {
 
 namespace {
 
-constexpr const char* kGroup = "/temperature";
-constexpr const char* kScores = "/scores/temperature";
+constexpr const char* kTemperatureGroup = "/temperature";
+constexpr const char* kTemperatureScores = "/scores/temperature";
 
 double number(const char* name, double low, double high, const hdf5::Reader& reader) {
-  const double value = reader.numbers(kGroup, name, 1)[0];
+  const double value = reader.numbers(kTemperatureGroup, name, 1)[0];
   if (value >= low && value <= high) return value;
-  throw settings::InputError("its " + std::string(kGroup) + " has a " + name + " of " +
+  throw settings::InputError("its " + std::string(kTemperatureGroup) + " has a " + name + " of " +
                              std::to_string(value) + ", but must have " + std::to_string(low) + " to " +
                              std::to_string(high));
 }
@@ -23,12 +23,12 @@ double number(const char* name, double low, double high, const hdf5::Reader& rea
 void writeTemperature(const compensation::TemperatureModel& model, hdf5::Writer& writer) {
   if (!model.present()) return;
   const auto write = [&](const std::string& name, double value, const char* unit) {
-    writer.attribute(kGroup, name, std::vector<double>{value});
-    writer.attribute(kGroup, name + "_unit", unit);
+    writer.attribute(kTemperatureGroup, name, std::vector<double>{value});
+    writer.attribute(kTemperatureGroup, name + "_unit", unit);
   };
-  writer.group(kGroup);
+  writer.group(kTemperatureGroup);
   writer.attribute(
-      kGroup, "meaning",
+      kTemperatureGroup, "meaning",
       "p = p_0 (1 + sensitivity (T_lag - reference)), T_lag = low-pass of the measured temperature "
       "with the time constant lag; low, high, spread: of training");
   write("sensitivity", model.sensitivity, "1/K");
@@ -40,7 +40,7 @@ void writeTemperature(const compensation::TemperatureModel& model, hdf5::Writer&
 }
 
 compensation::TemperatureModel readTemperature(const hdf5::Reader& reader) {
-  if (!reader.has(kGroup)) return {};
+  if (!reader.has(kTemperatureGroup)) return {};
   compensation::TemperatureModel model;
   model.sensitivity = number("sensitivity", -1, 1, reader);
   model.reference = number("reference", -273.15, 1000, reader);
@@ -54,8 +54,8 @@ compensation::TemperatureModel readTemperature(const hdf5::Reader& reader) {
 
 void writeTemperatureScores(const TemperatureScore& score, hdf5::Writer& writer) {
   if (score.choice.empty()) return;
-  writer.group(kScores);
-  writer.attribute(kScores, "choice", score.choice);
+  writer.group(kTemperatureScores);
+  writer.attribute(kTemperatureScores, "choice", score.choice);
   if (score.groups.empty()) return;
   std::vector<std::string> names;
   std::vector<double> rmse;
@@ -63,7 +63,7 @@ void writeTemperatureScores(const TemperatureScore& score, hdf5::Writer& writer)
     names.push_back(group.name);
     rmse.insert(rmse.end(), {group.without, group.with});
   }
-  const std::string path = kScores;
+  const std::string path = kTemperatureScores;
   writer.texts(path + "/groups", names, "protocols and recordings; each was left out in turn");
   writer.dataset(path + "/group_rmse", rmse, {names.size(), 2}, "Pa",
                  "of means over half a second: without and with the model of the temperature");
@@ -71,9 +71,9 @@ void writeTemperatureScores(const TemperatureScore& score, hdf5::Writer& writer)
 
 TemperatureScore readTemperatureScores(const hdf5::Reader& reader) {
   TemperatureScore score;
-  if (!reader.has(kScores)) return score;
-  score.choice = reader.text(kScores, "choice");
-  const std::string path = kScores;
+  if (!reader.has(kTemperatureScores)) return score;
+  score.choice = reader.text(kTemperatureScores, "choice");
+  const std::string path = kTemperatureScores;
   if (!reader.has(path + "/groups")) return score;
   const std::vector<std::string> names = reader.texts(path + "/groups");
   const auto rmse = reader.dataset<double>(path + "/group_rmse", {names.size(), 2});

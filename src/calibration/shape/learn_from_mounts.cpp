@@ -17,7 +17,7 @@ namespace {
 
 using compensation::ShapeModel;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kLowShare = 0.05;  // of the highest pressure of training: where the sensitivity is measured
 constexpr double kHighShare = 0.20;
 constexpr double kLeastHistory = 1;  // keeps the file's value above 0 [Pa]
@@ -127,7 +127,7 @@ class ShapeTraining {
     }
     learnHistory();
     model_.law = compensation::learnLaw(model_);
-    model_.error_between = errors ? errorsBetween() : std::vector<double>(groups_.size() - 1, kNaN);
+    model_.error_between = errors ? errorsBetween() : std::vector<double>(groups_.size() - 1, kNotKnown);
   }
 
   const regression::CodeTable& tableOf(std::size_t taxel, std::size_t group) const {
@@ -258,14 +258,14 @@ class ShapeTraining {
       for (const std::size_t m : groups_[group])
         squares += std::pow(reader.estimate(mounts_[m].rest).curvature - model_.curvature[group], 2);
     } catch (const settings::InputError&) {
-      return kNaN;
+      return kNotKnown;
     }
     return std::sqrt(squares / double(groups_[group].size()));
   }
 
   // The larger of the errors on the two surfaces at the ends of each gap.
   std::vector<double> errorsBetween() const {
-    std::vector<double> on_surface(groups_.size(), kNaN), between;
+    std::vector<double> on_surface(groups_.size(), kNotKnown), between;
     for (std::size_t g = 1; g + 1 < groups_.size(); ++g) on_surface[g] = errorWithout(g);
     for (std::size_t g = 0; g + 1 < groups_.size(); ++g)
       between.push_back(std::fmax(on_surface[g], on_surface[g + 1]));

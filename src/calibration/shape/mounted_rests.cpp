@@ -13,7 +13,7 @@ namespace fsr::calibration {
 
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoRest = std::numeric_limits<double>::quiet_NaN();
 
 // The mean of several readings of one mount.
 compensation::RestReading meanOf(const std::vector<compensation::RestReading>& readings) {
@@ -26,7 +26,7 @@ compensation::RestReading meanOf(const std::vector<compensation::RestReading>& r
       sum += one.reading[t];
       count += 1;
     }
-    mean.reading[t] = count > 0 ? sum / count : kNaN;
+    mean.reading[t] = count > 0 ? sum / count : kNoRest;
   }
   return mean;
 }
@@ -55,7 +55,7 @@ SessionsByMount sessionsByMount(const std::vector<dataset::Recording>& recording
 
 // Mean over the scans [degree Celsius]; NaN = not recorded.
 double temperatureAt(const dataset::Recording& recording, const std::vector<std::size_t>& scans) {
-  if (recording.temperature.empty()) return kNaN;
+  if (recording.temperature.empty()) return kNoRest;
   double sum = 0;
   for (const std::size_t scan : scans) sum += recording.temperature[scan];
   return sum / double(scans.size());
@@ -75,7 +75,7 @@ std::vector<double> difference(const compensation::RestReading& after,
 compensation::RestReading readingAtRest(const dataset::Recording& recording,
                                         const std::vector<std::size_t>& scans) {
   const std::size_t taxels = recording.layout.size.taxels();
-  compensation::RestReading rest{std::vector<double>(taxels, kNaN), std::vector<std::uint8_t>(taxels, 0)};
+  compensation::RestReading rest{std::vector<double>(taxels, kNoRest), std::vector<std::uint8_t>(taxels, 0)};
   for (std::size_t t = 0; t < taxels; ++t) {
     if (scans.empty() || (!recording.mask.empty() && recording.mask[t] != 0)) continue;
     double sum = 0, zeros = 0;

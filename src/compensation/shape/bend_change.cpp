@@ -17,7 +17,7 @@ constexpr int kChanges = 5;     // and of each change on either side of none
 constexpr double kStep = 0.02;  // of the differences for the deviations, share of the range
 constexpr double kReach = 0.2;  // of the climb on either side of the start, share of the range
 constexpr double kPrior = 10;  // deviation where the readings tell nothing, in ranges: keeps variances finite
-constexpr double kNormal = 1.96;  // half width of a 95 % interval in deviations
+constexpr double kNormalOfChange = 1.96;  // half width of a 95 % interval in deviations
 
 /// The likelihood of a bend that changes linearly.
 class LinearBend {
@@ -108,7 +108,7 @@ BendChange changeOf(const ShapeModel& model, double centre, double change, doubl
   const double ends = errorAt(model, centre - change / 2) + errorAt(model, centre + change / 2);
   const double deviation =
       variance > 0 ? std::sqrt(variance + ends) : std::numeric_limits<double>::infinity();
-  return {change, deviation, change - kNormal * deviation, change + kNormal * deviation};
+  return {change, deviation, change - kNormalOfChange * deviation, change + kNormalOfChange * deviation};
 }
 
 // The logarithm of the likelihood there; moves `best` to the maximum nearby.

@@ -11,11 +11,11 @@ namespace fsr::compensation {
 
 namespace {
 
-constexpr int kSteps = 80;            // of the grid over the range of training
-constexpr double kBeyond = 0.25;      // of the range: the grid on either side of it
-constexpr double kInterval = 0.95;    // content of the interval
-constexpr double kNormal = 1.96;      // half width of such an interval in deviations
-constexpr double kLeastTaxels = 0.5;  // share of the taxels that must have a reading
+constexpr int kSteps = 80;                 // of the grid over the range of training
+constexpr double kBeyond = 0.25;           // of the range: the grid on either side of it
+constexpr double kInterval = 0.95;         // content of the interval
+constexpr double kNormalOfReading = 1.96;  // half width of such an interval in deviations
+constexpr double kLeastTaxels = 0.5;       // share of the taxels that must have a reading
 
 }  // namespace
 
@@ -150,8 +150,8 @@ void ShapeReader::addErrorBetween(ShapeEstimate& estimate) const {
   const double error = model_.error_between.at(gap) * std::min(1.0, 4 * away / width);
   if (!(error > estimate.deviation)) return;  // also NaN
   estimate.deviation = error;
-  estimate.low = std::min(estimate.low, estimate.curvature - kNormal * error);
-  estimate.high = std::max(estimate.high, estimate.curvature + kNormal * error);
+  estimate.low = std::min(estimate.low, estimate.curvature - kNormalOfReading * error);
+  estimate.high = std::max(estimate.high, estimate.curvature + kNormalOfReading * error);
 }
 
 double ShapeReader::fit(double distance, std::size_t taxels) const {

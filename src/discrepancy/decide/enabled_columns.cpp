@@ -14,7 +14,7 @@ namespace fsr::discrepancy {
 
 namespace {
 
-constexpr double kStep = 0.05;  // of a parameter, for a difference quotient
+constexpr double kQuotientStep = 0.05;  // of a parameter, for a difference quotient
 
 bool isFitted(const simulation::EffectParameter& parameter) {
   return parameter.role == simulation::ParameterRole::kStrength || !parameter.tried.empty();
@@ -25,7 +25,7 @@ std::optional<simulation::EnabledEffect> stepped(const simulation::EnabledEffect
                                                  const simulation::EffectParameter& parameter) {
   simulation::EnabledEffect further = effect;
   double& value = further.values.at(parameter.name);
-  const double step = kStep * (value != 0 ? std::abs(value) : std::abs(parameter.usual));
+  const double step = kQuotientStep * (value != 0 ? std::abs(value) : std::abs(parameter.usual));
   if (!(step > 0) || !std::isfinite(step)) return std::nullopt;
   for (const double way : {1.0, -1.0}) {
     if (!parameter.permitted.contains(value + way * step)) continue;

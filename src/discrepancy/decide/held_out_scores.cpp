@@ -15,7 +15,7 @@ namespace {
 using Index = Eigen::Index;
 
 // Exponents of ten of the prior variances that are tried [share of full scale, squared].
-constexpr double kLowest = -14, kHighest = 1, kStep = 0.5;
+constexpr double kLowest = -14, kHighest = 1, kGridStep = 0.5;
 constexpr double kFineStep = 0.02;       // likewise, for the interval of a prior variance
 constexpr double kWithin95 = 3.841 / 2;  // nats below the largest likelihood: chi-squared of one degree
 
@@ -33,7 +33,7 @@ class FreeFitter {
     fit.coefficients.setZero(right.size());
     const Eigen::VectorXd turned = vectors_.transpose() * right;
     const Eigen::ArrayXd pull = turned.array().square();
-    for (double e = kLowest; e <= kHighest; e += kStep) {
+    for (double e = kLowest; e <= kHighest; e += kGridStep) {
       const double variance = std::pow(10, e), likelihood = likelihoodAt(variance, pull);
       if (likelihood > fit.likelihood) fit.likelihood = likelihood, fit.variance = variance;
     }

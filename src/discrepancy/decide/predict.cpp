@@ -12,7 +12,7 @@ namespace fsr::discrepancy {
 
 namespace {
 
-constexpr double kDifference = 0.02;            // of the size's logarithm
+constexpr double kSizeDifference = 0.02;        // of the size's logarithm
 constexpr double kSmallest = -4, kLargest = 2;  // logarithm of the size of predicted effects
 
 // Effects with fixed parameters in recordings that they were not fitted to. The first variable is the
@@ -40,9 +40,9 @@ class Predictor {
   static double sizeOf(double logarithm) { return std::exp(std::clamp(logarithm, kSmallest, kLargest)); }
   // Derivative of the error with respect to the size.
   Eigen::VectorXd slopeAt(double logarithm) const {
-    const double inside = std::clamp(logarithm, kSmallest + kDifference, kLargest - kDifference);
+    const double inside = std::clamp(logarithm, kSmallest + kSizeDifference, kLargest - kSizeDifference);
     const Residuals residuals = [this](const std::vector<double>& at) { return error(at); };
-    return derivatives(residuals, {inside}, *error({inside}), kDifference).col(0) / sizeOf(inside);
+    return derivatives(residuals, {inside}, *error({inside}), kSizeDifference).col(0) / sizeOf(inside);
   }
   void judgeCycles(const Eigen::VectorXd& slope, const Eigen::VectorXd& left, Predicted& told) const;
   double bySpread(const Eigen::VectorXd& slope, const Eigen::VectorXd& left) const;

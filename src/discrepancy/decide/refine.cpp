@@ -18,8 +18,8 @@ namespace fsr::discrepancy {
 
 namespace {
 
-constexpr double kDifference = 0.02;  // of a parameter's scale
-constexpr double kBeyondTried = 3;    // factor by which a shape may exceed its plausible range
+constexpr double kScaleDifference = 0.02;  // of a parameter's scale
+constexpr double kBeyondTried = 3;         // factor by which a shape may exceed its plausible range
 constexpr int kMostHalved = 8;
 constexpr double kTwoSided = 1.96;  // 95 % of a normal distribution
 
@@ -113,7 +113,7 @@ class Refiner {
 // at an end of its range is not free.
 Eigen::MatrixXd Refiner::covariance(const Eigen::VectorXd& left) const {
   const auto residuals = [this](const std::vector<double>& at) { return error(at); };
-  Eigen::MatrixXd jacobian = derivatives(residuals, at_, left, kDifference);
+  Eigen::MatrixXd jacobian = derivatives(residuals, at_, left, kScaleDifference);
   for (std::size_t k = 0; k < knobs_.size(); ++k) {
     const double value = knobs_[k].write(at_[k]);
     const bool at_end = value <= knobs_[k].range.low || value >= knobs_[k].range.high;

@@ -10,16 +10,16 @@ namespace fsr::discrepancy {
 namespace {
 
 constexpr std::size_t kFewestCycles = 3;
-constexpr double kNormal95 = 1.96;    // of a normal distribution: 95 % lie within
-constexpr double kSeen = 0.5;         // relative standard error of a variance that can be told from 0
-constexpr double kLeastSlope = 0.05;  // of the usual one: below it a reading tells nothing of the pressure
+constexpr double kNormal95 = 1.96;      // of a normal distribution: 95 % lie within
+constexpr double kSeen = 0.5;           // relative standard error of a variance that can be told from 0
+constexpr double kTellingSlope = 0.05;  // of the usual one: below it a reading tells nothing of the pressure
 
 constexpr std::size_t kAll = CycleNoise::kParts;
 using Parts = Eigen::Matrix<double, static_cast<int>(kAll), 1>;
 using Square = Eigen::Matrix<double, static_cast<int>(kAll), static_cast<int>(kAll)>;
 
-// Sums over all bins of the variance that each part has at variance 1.
-struct Sums {
+// ScatterSums over all bins of the variance that each part has at variance 1.
+struct ScatterSums {
   Square information = Square::Zero();
   Parts reading = Parts::Zero();   // [share of full scale, squared]
   Parts pressure = Parts::Zero();  // [Pa^2]
@@ -31,10 +31,11 @@ double leastSlope(const CycleDesign& design) {
   for (const CycleBins& bins : design.cycles) {
     for (Eigen::Index b = 0; b < bins.bins(); ++b) slopes.push_back(bins.slope[b]);
   }
-  return kLeastSlope * statistics::upperMedian(slopes, 0);
+  return kTellingSlope * statistics::upperMedian(slopes, 0);
 }
 
-void add(const CycleBins& bins, const std::array<Eigen::MatrixXd, kAll>& parts, double least, Sums& sums) {
+void add(const CycleBins& bins, const std::array<Eigen::MatrixXd, kAll>& parts, double least,
+         ScatterSums& sums) {
   for (Eigen::Index b = 0; b < bins.bins(); ++b) {
     const bool slope = bins.slope[b] >= least && bins.slope[b] > 0;
     sums.scans += bins.scans[b];
@@ -49,8 +50,8 @@ void add(const CycleBins& bins, const std::array<Eigen::MatrixXd, kAll>& parts, 
 }
 
 // I_kl = tr(S^-1 V_k S^-1 V_l) / 2, added up over the cycles.
-Sums sumsOf(const CycleDesign& design, const CycleNoise& noise) {
-  Sums sums;
+ScatterSums sumsOf(const CycleDesign& design, const CycleNoise& noise) {
+  ScatterSums sums;
   const double least = leastSlope(design);
   for (const CycleBins& bins : design.cycles) {
     const auto parts = CycleNoise::parts(bins, design.cycle_time);
@@ -89,7 +90,7 @@ Interval intervalOf(double variance, double error) {
 
 std::vector<Scatter> scatterOf(const CycleDesign& design, const CycleNoise& noise) {
   if (design.cycles.size() < kFewestCycles) return {};
-  const Sums sums = sumsOf(design, noise);
+  const ScatterSums sums = sumsOf(design, noise);
   const Square covariance = covarianceOf(sums.information);
   Parts variance;
   for (std::size_t k = 0; k < kAll; ++k) variance[static_cast<Eigen::Index>(k)] = noise.variance[k];

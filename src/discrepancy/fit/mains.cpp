@@ -20,9 +20,9 @@ constexpr std::size_t kFewestTaxels = 8;
 constexpr double kMainsFrequency = 50;  // assumed [Hz]
 
 // Readings of the used taxels, minus their static curves and minus the mean residual of these taxels.
-class Residuals {
+class SheetResiduals {
  public:
-  Residuals(const Measured& measured, const TaxelFit& taxels) : measured_(measured), taxels_(taxels) {
+  SheetResiduals(const Measured& measured, const TaxelFit& taxels) : measured_(measured), taxels_(taxels) {
     for (std::size_t t = 0; t < measured.taxels(); ++t) {
       if (measured.used[t]) place_.push_back(t);
     }
@@ -42,7 +42,7 @@ class Residuals {
   std::vector<double> all_;
 };
 
-Eigen::MatrixXd covarianceOf(const Measured& measured, Residuals& residuals) {
+Eigen::MatrixXd covarianceOf(const Measured& measured, SheetResiduals& residuals) {
   const auto n = static_cast<Eigen::Index>(residuals.size());
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(n, n);
   Eigen::VectorXd now(n);
@@ -54,7 +54,7 @@ Eigen::MatrixXd covarianceOf(const Measured& measured, Residuals& residuals) {
   return covariance.selfadjointView<Eigen::Lower>();
 }
 
-Eigen::VectorXcd patternOf(const Residuals& residuals, double turn) {
+Eigen::VectorXcd patternOf(const SheetResiduals& residuals, double turn) {
   Eigen::VectorXcd pattern(static_cast<Eigen::Index>(residuals.size()));
   for (std::size_t k = 0; k < residuals.size(); ++k) {
     pattern[static_cast<Eigen::Index>(k)] =
@@ -63,7 +63,8 @@ Eigen::VectorXcd patternOf(const Residuals& residuals, double turn) {
   return pattern;
 }
 
-// Residuals of the used taxels at all samples [samples x taxels], and where the parts of the spectrum lie.
+// SheetResiduals of the used taxels at all samples [samples x taxels], and where the parts of the spectrum
+// lie.
 struct Courses {
   Eigen::MatrixXf residual;
   struct Part {
@@ -72,7 +73,7 @@ struct Courses {
   std::vector<Part> parts;
 };
 
-Courses coursesOf(const Measured& measured, Residuals& residuals) {
+Courses coursesOf(const Measured& measured, SheetResiduals& residuals) {
   Courses courses;
   const auto n = static_cast<Eigen::Index>(residuals.size());
   courses.residual.resize(static_cast<Eigen::Index>(measured.samples()), n);
@@ -125,7 +126,7 @@ double beyondRatio(double ratio, std::size_t parts) {
   return std::min(1.0, p);
 }
 
-Line strongest(const Courses& courses, const Eigen::MatrixXd& covariance, const Residuals& residuals,
+Line strongest(const Courses& courses, const Eigen::MatrixXd& covariance, const SheetResiduals& residuals,
                const std::vector<Eigen::VectorXcd>& patterns, const std::vector<double>& turns,
                const std::vector<Eigen::Index>& order) {
   Line line;
@@ -166,7 +167,7 @@ Line strongest(const Courses& courses, const Eigen::MatrixXd& covariance, const 
 Mains findMains(const Measured& measured, const StaticFit& fit, const TaxelFit& taxels,
                 const DiscrepancyOptions& options) {
   Mains mains;
-  Residuals residuals(measured, taxels);
+  SheetResiduals residuals(measured, taxels);
   if (residuals.size() < kFewestTaxels) return mains;
   const Eigen::MatrixXd covariance = covarianceOf(measured, residuals);
   const auto n = static_cast<double>(measured.taxels());

@@ -13,12 +13,12 @@ namespace {
 
 constexpr double kOdd = 6;           // times the usual squared residual; noise differs by less
 constexpr double kDeaf = 0.02;       // share of the usual variance of the readings within a visit
-constexpr double kTogether = 2;      // times the square that the mean of a line has by chance
+constexpr double kChanceFactor = 2;  // times the square that the mean of a line has by chance
 constexpr double kMostOfLine = 0.6;  // share of a line's taxels; from it on the line is odd
 
-// Sums over the samples outside the hold-out cycles. The residuals of taxels and lines are relative to the
-// mean residual of all used taxels.
-struct Sums {
+// LineSums over the samples outside the hold-out cycles. The residuals of taxels and lines are relative to
+// the mean residual of all used taxels.
+struct LineSums {
   Eigen::VectorXd squares;                  // [taxels]
   Eigen::VectorXd lines[2];                 // squares of the means of rows, of columns
   Eigen::MatrixXd reading, reading_square;  // [taxels x visits]
@@ -54,7 +54,7 @@ class Judge {
   const TaxelFit& fit_;
   std::vector<std::size_t> used_;
   std::vector<double> members_[2];  // used taxels of each row, of each column
-  Sums sums_;
+  LineSums sums_;
 };
 
 std::vector<double> Judge::linesOf(const std::vector<double>& own, bool column) const {
@@ -121,7 +121,7 @@ void Judge::judgeLines(bool column, OddTaxels& odd) const {
   for (Eigen::Index l = 0; l < sums_.lines[column].size(); ++l) {
     const double n = members_[column][static_cast<std::size_t>(l)];
     const double by_chance = n > 0 ? usual / n : 0;
-    if (n < 3 || sums_.lines[column][l] < kTogether * by_chance) continue;
+    if (n < 3 || sums_.lines[column][l] < kChanceFactor * by_chance) continue;
     lines.push_back(static_cast<std::size_t>(l));
     more += n * (sums_.lines[column][l] - by_chance);
   }

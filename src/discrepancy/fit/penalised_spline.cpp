@@ -12,7 +12,7 @@ constexpr double kInflated = 1.4;
 constexpr double kStep = 2;          // factor between the weights that are tried
 constexpr double kForbidden = 1e6;   // weight of a slope that is too low, relative to the mean normal
 constexpr double kTolerated = 1e-9;  // slope below the least
-constexpr int kMostRounds = 40;
+constexpr int kMostPenaltyRounds = 40;
 constexpr int kReleases = 20;  // rounds in which a slope that was forbidden may rise again
 
 }  // namespace
@@ -100,7 +100,7 @@ Eigen::VectorXd PenalisedSpline::valuesRising(double weight, const Eigen::Matrix
   Eigen::VectorXd values = this->values(weight);
   const Eigen::MatrixXd plain = normal_ + penalty(weight) * secondDifferences(normal_.rows());
   std::vector<bool> active(static_cast<std::size_t>(least.size()), false);
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < kMostPenaltyRounds; ++round) {
     const Eigen::VectorXd slope = slopes * values;
     bool changed = false;
     for (Eigen::Index k = 0; k < least.size(); ++k) {

@@ -12,10 +12,10 @@ namespace fsr::discrepancy {
 namespace {
 
 constexpr double kLeastZ = 6;
-constexpr std::size_t kPoints = 60;  // in each curve
-constexpr double kSure = 2;          // standard errors; a smaller difference may be due to chance
-constexpr double kFewSamples = 8;    // at one pressure; fewer give no estimate
-constexpr double kTogether = 5;      // samples that count as one, because the noise is coloured
+constexpr std::size_t kPoints = 60;       // in each curve
+constexpr double kSure = 2;               // standard errors; a smaller difference may be due to chance
+constexpr double kFewSamples = 8;         // at one pressure; fewer give no estimate
+constexpr double kCorrelatedSamples = 5;  // samples that count as one, because the noise is coloured
 
 // Smooth functions of the position on the sheet: powers of x and y up to a degree, without the constant.
 Eigen::MatrixXd smoothFields(const matrix::Layout& layout, const std::vector<std::size_t>& taxels) {
@@ -178,7 +178,7 @@ Eigen::MatrixXd chanceOf(const Measured& measured, const StaticFit& fit, const T
   for (Eigen::Index c = 0; c < classes; ++c) {
     for (Eigen::Index k = 0; k < points; ++k) {
       const double n = number(k, c);
-      chance(k, c) = n < kFewSamples ? INFINITY : kTogether * squares(k, c) / (n * n);
+      chance(k, c) = n < kFewSamples ? INFINITY : kCorrelatedSamples * squares(k, c) / (n * n);
     }
   }
   return chance;

@@ -14,13 +14,13 @@ namespace fsr::discrepancy {
 
 namespace {
 
-constexpr std::size_t kMostKnots = 40, kFewestKnots = 4;
+constexpr std::size_t kMostCurveKnots = 40, kFewestCurveKnots = 4;
 constexpr std::size_t kScansPerKnot = 5;
 constexpr double kDenser = 0.35;  // spacing of the first knots, relative to even spacing
 constexpr double kProbe =
     1e-3;  // change of the curves with which the slope is measured [share of full scale]
 constexpr double kSameSlope = 1e-6;
-constexpr int kMostRounds = 4;        // of Gauss and Newton, where the read-out is not linear
+constexpr int kMostNewtonRounds = 4;  // of Gauss and Newton, where the read-out is not linear
 constexpr double kSettled = 1e-5;     // change of a curve after which they end [share of full scale]
 constexpr double kWithin = 0.5;       // between two knots: where the curve must not fall either
 constexpr double kLeastSlope = 1e-3;  // relative to a linear read-out; below it a reading tells nothing
@@ -29,7 +29,7 @@ using Curves = simulation::TaxelCurves;
 
 // The knots lie closer at low load, where the static law bends most.
 std::vector<double> knotsOver(double low, double high, std::size_t scans) {
-  const std::size_t knots = std::clamp(scans / kScansPerKnot, kFewestKnots, kMostKnots);
+  const std::size_t knots = std::clamp(scans / kScansPerKnot, kFewestCurveKnots, kMostCurveKnots);
   std::vector<double> result;
   for (std::size_t k = 0; k < knots; ++k) {
     const double even = static_cast<double>(k) / static_cast<double>(knots - 1);
@@ -259,7 +259,7 @@ double CurvesFit::step() {
 }
 
 Curves CurvesFit::run() {
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < kMostNewtonRounds; ++round) {
     if (step() < kSettled || linear_) break;
   }
   return curves_;

@@ -22,12 +22,6 @@ namespace fsr::discrepancy {
 
 namespace {
 
-std::string idsOf(const std::vector<simulation::EnabledEffect>& effects) {
-  std::vector<std::string> ids;
-  for (const simulation::EnabledEffect& effect : effects) ids.push_back(effect.id);
-  return listText(ids, " with ");
-}
-
 // Analyses the new recordings without using the prediction. Returns the best explanation if no credible
 // explanation contains the predicted effect `id`, else an empty text.
 std::string excludedBy(const Measured& measured, const CommonTraces& common, const StaticFit& fit,

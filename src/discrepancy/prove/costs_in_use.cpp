@@ -20,8 +20,8 @@ constexpr double kStanding = 600;  // duration of standing [s]
 constexpr double kOnto = 1;        // time from no load to standing [s]
 constexpr double kLoaded = 0.1;    // share of the peak; errors below it do not count
 constexpr double kBeyond = 1.3;    // curves are extrapolated linearly to this factor of the highest pressure
-constexpr double kLeastSlope = 0.05;  // of the usual one: below it a reading tells nothing of the pressure
-constexpr std::size_t kPoints = 500;  // points of a curve
+constexpr double kTellingSlope = 0.05;  // of the usual one: below it a reading tells nothing of the pressure
+constexpr std::size_t kPoints = 500;    // points of a curve
 
 // A course of pressure, and the part of it in which errors count.
 struct Situation {
@@ -86,7 +86,7 @@ struct Curve {
   // Whether the curve is so flat at this pressure that its reading tells nothing.
   bool flatAt(double pressure) const {
     const auto at = std::min(kPoints - 2, static_cast<std::size_t>(std::max(0.0, pressure / step())));
-    return reading[at + 1] - reading[at] < kLeastSlope * usual;
+    return reading[at + 1] - reading[at] < kTellingSlope * usual;
   }
 };
 

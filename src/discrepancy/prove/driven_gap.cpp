@@ -13,9 +13,9 @@ namespace fsr::discrepancy {
 
 namespace {
 
-constexpr double kLeastSlope = 0.05;  // share of the steepest slope; a flatter curve tells no pressure
-constexpr double kBins = 40;          // of pressure, in which readings of different cycles are compared
-constexpr double kOfDifferences = 6;  // variance of a second difference of white noise / that of the noise
+constexpr double kFlattestSlope = 0.05;  // share of the steepest slope; a flatter curve tells no pressure
+constexpr double kBins = 40;             // of pressure, in which readings of different cycles are compared
+constexpr double kOfDifferences = 6;     // variance of a second difference of white noise / that of the noise
 
 // Sums over the readings of one hold-out cycle [share of full scale, squared], [Pa^2].
 struct Sums {
@@ -107,7 +107,7 @@ void DrivenGap::addErrors(std::uint32_t sample, bool after) {
   }
   (after ? sum.after : sum.before) += squares;
   if (!after) sum.number += number;
-  if (slope < kLeastSlope * steepest_ || slope <= 0) return;
+  if (slope < kFlattestSlope * steepest_ || slope <= 0) return;
   (after ? sum.after_pressure : sum.before_pressure) += squares / (slope * slope);
   if (!after) sum.in_pressure += number;
 }

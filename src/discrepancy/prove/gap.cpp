@@ -16,7 +16,7 @@ namespace fsr::discrepancy {
 namespace {
 
 constexpr double kDirectionShows = 0.1;  // share of the squared trace; a direction with less does not show it
-constexpr double kSure = 3;              // standard errors by which the amplitude of a taxel must exceed 0
+constexpr double kSureAmplitude = 3;     // standard errors by which the amplitude of a taxel must exceed 0
 constexpr std::size_t kCurvePoints = 24;
 
 double ofClass(const Measured& measured, const Trace& left, std::size_t wanted) {
@@ -178,7 +178,8 @@ WhereItShows placeOf(const Measured& measured, const Trace& left, const Spread& 
   WhereItShows where;
   const double most = by_taxel.maxCoeff(), most_class = by_class.maxCoeff();
   for (Eigen::Index t = 0; t < rows; ++t) {
-    const bool sure = by_taxel[t] > kSure * std::sqrt(error[t]) || kSure * std::sqrt(error[t]) > 0.5 * most;
+    const bool sure = by_taxel[t] > kSureAmplitude * std::sqrt(error[t]) ||
+                      kSureAmplitude * std::sqrt(error[t]) > 0.5 * most;
     if (by_taxel[t] >= thresholds::kShows * most && sure) where.taxels.push_back(static_cast<std::size_t>(t));
   }
   if (static_cast<double>(where.taxels.size()) >= used) where.taxels.clear();

@@ -31,7 +31,7 @@ constexpr double kFullPeak = 620e3;   // of the programs below; they are scaled 
 constexpr double kFewestCycles = 10;  // on each surface: two in each fold of the comparison
 constexpr double kMostCycles = 100;   // on each surface: more is not recommended
 constexpr double kDrawsApart = 0.01;  // falls of entropy that differ less differ by the draws [nats]
-constexpr double kSure = 0.95;        // probability of one explanation that is enough
+constexpr double kEnough = 0.95;      // probability of one explanation that is enough
 
 struct Protocol {
   const char* name;
@@ -228,7 +228,7 @@ double entropyOf(const Eigen::VectorXd& probability) {
 
 // Entropy of one explanation that is sure enough, and of all the others together.
 double sureEntropy() {
-  return entropyOf(Eigen::Vector2d(kSure, 1 - kSure));
+  return entropyOf(Eigen::Vector2d(kEnough, 1 - kEnough));
 }
 
 // Smallest distance between two explanations, in standard deviations of the noise, after the size of one was
@@ -273,12 +273,6 @@ std::size_t lacking(const simulation::EffectLibrary& library, const AvailableEvi
 const Protocol& protocolCalled(const std::string& name) {
   return *std::find_if(std::begin(kProtocols), std::end(kProtocols),
                        [&](const Protocol& one) { return one.name == name; });
-}
-
-std::string idsOf(const std::vector<simulation::EnabledEffect>& effects) {
-  std::vector<std::string> ids;
-  for (const simulation::EnabledEffect& effect : effects) ids.push_back(effect.id);
-  return listText(ids, " with ");
 }
 
 // A protocol, run as often as it takes.

@@ -154,4 +154,10 @@ std::string courseText(const std::string& id, double a_cycle, bool alone) {
          (alone ? "" : " Something else remains beside it that chance does not explain.");
 }
 
+std::string idsOf(const std::vector<simulation::EnabledEffect>& effects) {
+  std::vector<std::string> ids;
+  for (const simulation::EnabledEffect& effect : effects) ids.push_back(effect.id);
+  return listText(ids, " with ");
+}
+
 }  // namespace fsr::discrepancy

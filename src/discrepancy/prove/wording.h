@@ -9,6 +9,8 @@ namespace fsr::discrepancy {
 
 /// "a, b and c".
 std::string listText(const std::vector<std::string>& items, const std::string& last = " and ");
+/// The names of effects that act together: "creep with hysteresis".
+std::string idsOf(const std::vector<simulation::EnabledEffect>& effects);
 
 /// The verdict in one sentence, with the number of effects tested.
 std::string sentenceOf(const DiscrepancyReport& report);

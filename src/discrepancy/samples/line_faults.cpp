@@ -13,8 +13,8 @@ namespace fsr::discrepancy {
 
 namespace {
 
-constexpr std::size_t kSpans[] = {2, 8, 32};                // scans on each side of a step
-constexpr std::size_t kFewestLines = 3, kFewestTaxels = 3;  // fewer have no neighbours, or are no line
+constexpr std::size_t kSpans[] = {2, 8, 32};                 // scans on each side of a step
+constexpr std::size_t kFewestLines = 3, kFewestOfALine = 3;  // fewer have no neighbours, or are no line
 constexpr float kMostDeviation = 1;  // a deviation beyond the taxel's range says no more
 
 constexpr std::size_t kLongestSpan = kSpans[std::size(kSpans) - 1];
@@ -94,7 +94,7 @@ bool LineTest::prepare() {
   for (const std::size_t t : taxels_) ++members_[lineOf(t)];
   std::vector<std::size_t> whole;
   for (std::size_t l = 0; l < lines_; ++l) {
-    if (members_[l] >= kFewestTaxels) whole.push_back(l);
+    if (members_[l] >= kFewestOfALine) whole.push_back(l);
   }
   beside_.assign(lines_, {});
   noise_.assign(lines_, 0);

@@ -14,14 +14,14 @@ namespace {
 
 using Kind = TaxelFault::Kind;
 
-constexpr std::size_t kFewestTaxels = 8;  // fewer have no quartiles
+constexpr std::size_t kFewestForQuartiles = 8;  // fewer have no quartiles
 // Quantiles of Gumbel's standard distribution: median, and difference of the quartiles.
 constexpr double kGumbelMedian = 0.36651, kGumbelQuartiles = 1.57253;
 // Least scale of the logarithm of the taxels' largest deviations: they differ by some per cent by chance
 // alone, and by steps of the converter.
 constexpr double kLeastScale = 0.1;
 // Response to the others, relative to the usual one, below which a taxel does not follow them.
-constexpr double kResponds = 0.3;
+constexpr double kFollowsOthers = 0.3;
 // Largest memory of the deviations from one scan to the next. What lasts longer is taken up by the models.
 constexpr double kMostMemory = 0.8;
 // Share of the scans in which a frozen reading changes all the same.
@@ -134,7 +134,8 @@ void TaxelTest::join(std::size_t taxel, std::size_t visit, std::vector<bool>& fl
     if (last < flags.size() && i > last) {
       bool hidden = true;
       for (std::size_t g = last; g < i && hidden; ++g)
-        hidden = std::abs(course.expected(g)) < kResponds || std::abs(course.deviation(g)) > kResponds;
+        hidden =
+            std::abs(course.expected(g)) < kFollowsOthers || std::abs(course.deviation(g)) > kFollowsOthers;
       if (hidden || i - last <= std::min(run, end - i) / 2)
         std::fill(flags.begin() + static_cast<std::ptrdiff_t>(last),
                   flags.begin() + static_cast<std::ptrdiff_t>(i), true);
@@ -199,14 +200,14 @@ class SpellFit {
   }
   double square() const { return floor_ + (reading_ - expected_).squaredNorm(); }
   // The reading goes to that without load, which is between 0 counts and the lowest reading of the sheet: a
-  // share of what the others say, which ends below kResponds.
+  // share of what the others say, which ends below kFollowsOthers.
   double dead(double& parameters) const {
     double best = INFINITY, costs = 0;
     for (const double level : {zero_, nothing_}) {
       const Eigen::VectorXd y = reading_.array() - level, f = expected_.array() - level;
       for (const double decay : kDecays) {
         const Eigen::VectorXd x = f.array() * (-decay * place_.array()).exp();
-        const double most = std::min(1.0, kResponds * std::exp(decay));
+        const double most = std::min(1.0, kFollowsOthers * std::exp(decay));
         const double a = x.squaredNorm() > 0 ? std::clamp(x.dot(y) / x.squaredNorm(), 0.0, most) : 0;
         keepBetter((y - a * x).squaredNorm(), decay > 0 ? 2 : 1, best, costs);
       }
@@ -223,7 +224,7 @@ class SpellFit {
       if (decay > 0) x.col(1) = (-decay * place_.array()).exp();
       const Eigen::VectorXd left = reading_ - x * x.colPivHouseholderQr().solve(reading_);
       keepBetter(left.squaredNorm(), decay > 0 ? 3 : 1, best, costs);
-      if (std::exp(-decay) > kResponds) continue;
+      if (std::exp(-decay) > kFollowsOthers) continue;
       // It leaves the others for that level by and by.
       const Eigen::VectorXd still = (-decay * place_.array()).exp(), moved = 1 - still.array();
       const Eigen::VectorXd y = reading_.array() - still.array() * expected_.array();
@@ -232,8 +233,8 @@ class SpellFit {
     parameters = costs;
     return floor_ + best;
   }
-  // The reading follows the others, by at least kResponds of the usual response, beside an offset that may
-  // drift.
+  // The reading follows the others, by at least kFollowsOthers of the usual response, beside an offset that
+  // may drift.
   double follows(double& parameters) const {
     Eigen::MatrixXd x(n_, 3);
     x.col(0).setOnes();
@@ -241,8 +242,8 @@ class SpellFit {
     x.col(2) = expected_;
     parameters = 3;
     const Eigen::VectorXd fit = x.colPivHouseholderQr().solve(reading_);
-    if (fit[2] >= kResponds) return floor_ + (reading_ - x * fit).squaredNorm();
-    const Eigen::VectorXd y = reading_ - kResponds * expected_;
+    if (fit[2] >= kFollowsOthers) return floor_ + (reading_ - x * fit).squaredNorm();
+    const Eigen::VectorXd y = reading_ - kFollowsOthers * expected_;
     parameters = 2;
     return floor_ + (y - x.leftCols(2) * x.leftCols(2).colPivHouseholderQr().solve(y)).squaredNorm();
   }
@@ -330,7 +331,7 @@ void TaxelTest::judge(TaxelFault& fault) const {
 
 std::vector<TaxelFault> TaxelTest::run() {
   std::vector<TaxelFault> faults;
-  if (taxels_.size() < kFewestTaxels) return faults;
+  if (taxels_.size() < kFewestForQuartiles) return faults;
   measure();
   const auto tests = static_cast<double>(taxels_.size() * spans_.size());
   for (std::size_t k = 0; k < taxels_.size(); ++k) {

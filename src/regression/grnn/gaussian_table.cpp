@@ -9,10 +9,10 @@ namespace fsr::regression {
 
 namespace {
 
-constexpr std::ptrdiff_t kLanes = 8;
-constexpr std::ptrdiff_t kVectors = kCodeBlock / kLanes;
+constexpr std::ptrdiff_t kVectorLanes = 8;
+constexpr std::ptrdiff_t kVectors = kCodeBlock / kVectorLanes;
 constexpr double kSmallestKernel = 700.0;  // exponent
-using Lanes = double __attribute__((vector_size(kLanes * sizeof(double))));
+using Lanes = double __attribute__((vector_size(kVectorLanes * sizeof(double))));
 
 // `kernel` points to distance 0. Code i of the block is at distance block + i - code from a sample.
 FSR_EACH_VECTOR_WIDTH
@@ -24,7 +24,7 @@ void addSamples(const WeightedCodes& samples, std::size_t first, std::size_t las
     const double* const values = kernel - samples.code[s];
     for (std::ptrdiff_t v = 0; v < kVectors; ++v) {
       Lanes lanes;
-      std::memcpy(&lanes, values + v * kLanes, sizeof(lanes));
+      std::memcpy(&lanes, values + v * kVectorLanes, sizeof(lanes));
       sums[v] += samples.sum[s] * lanes;
       weights[v] += samples.count[s] * lanes;
     }

@@ -9,7 +9,7 @@ namespace fsr::report {
 
 namespace {
 
-constexpr double kKilopascal = 1e3;  // [Pa]
+constexpr double kTableKilopascal = 1e3;  // [Pa]
 
 // One CSV file. Numbers have nine digits; NaN is an empty cell.
 class Table {
@@ -64,9 +64,9 @@ void addInterval(Table& table, const statistics::BootstrapResult& interval, doub
 }
 
 void addErrors(Table& table, const statistics::ErrorSummary& errors) {
-  table << static_cast<double>(errors.count) << errors.bias / kKilopascal << errors.rmse / kKilopascal
-        << errors.limit_low / kKilopascal << errors.limit_high / kKilopascal
-        << errors.p95_absolute / kKilopascal;
+  table << static_cast<double>(errors.count) << errors.bias / kTableKilopascal
+        << errors.rmse / kTableKilopascal << errors.limit_low / kTableKilopascal
+        << errors.limit_high / kTableKilopascal << errors.p95_absolute / kTableKilopascal;
 }
 
 std::string scoresTable(const study::StudyResult& result) {
@@ -82,9 +82,9 @@ std::string scoresTable(const study::StudyResult& result) {
                 << score.rmse_percent_spread.deviation << paper.r2.mean << paper.r2.deviation
                 << paper.rmse_percent.mean << paper.rmse_percent.deviation;
     addErrors(table, score.errors.whole.all);
-    table << score.first_cycle.rmse / kKilopascal << score.later_cycles.rmse / kKilopascal
+    table << score.first_cycle.rmse / kTableKilopascal << score.later_cycles.rmse / kTableKilopascal
           << static_cast<double>(score.worst_taxel) << score.worst_rmse_percent;
-    addInterval(table, score.rmse_interval, kKilopascal);
+    addInterval(table, score.rmse_interval, kTableKilopascal);
   });
   return table.text();
 }
@@ -185,9 +185,10 @@ std::string curvatureErrorTable(const study::StudyResult& result) {
       "[kPa],unit,units");
   for (const study::CurvatureErrorCurve& curve : result.curvature_errors) {
     for (const study::CurvatureErrorScore& score : curve.scores) {
-      addError(table, curve, score.error) << score.rmse_percent << score.rmse / kKilopascal
-                                          << score.moved / kKilopascal << score.stated / kKilopascal;
-      addInterval(table, score.rmse_interval, kKilopascal);
+      addError(table, curve, score.error)
+          << score.rmse_percent << score.rmse / kTableKilopascal << score.moved / kTableKilopascal
+          << score.stated / kTableKilopascal;
+      addInterval(table, score.rmse_interval, kTableKilopascal);
     }
   }
   return table.text();
@@ -201,7 +202,7 @@ std::string curvatureErrorsBySurface(const study::StudyResult& result) {
     for (const study::CurvatureErrorScore& score : curve.scores) {
       for (std::size_t c = 0; c < result.classes.size(); ++c) {
         addError(table, curve, score.error)
-            << result.classes[c].condition.surface << score.rmse_of_class[c] / kKilopascal;
+            << result.classes[c].condition.surface << score.rmse_of_class[c] / kTableKilopascal;
       }
     }
   }
@@ -212,7 +213,7 @@ std::string responseTable(const study::StudyResult& result) {
   Table table("surface,curvature [1/m],time [s],pressure [kPa],reading [counts]");
   for (const study::TaxelResponse::Curve& curve : result.response.curves) {
     for (std::size_t i = 0; i < curve.time.size(); ++i) {
-      table.row() << curve.surface << curve.curvature << curve.time[i] << curve.pressure[i] / kKilopascal
+      table.row() << curve.surface << curve.curvature << curve.time[i] << curve.pressure[i] / kTableKilopascal
                   << curve.counts[i];
     }
   }
@@ -223,9 +224,9 @@ std::string predictionTable(const study::StudyResult& result) {
   Table table("time [s],reference [kPa],without curvature [kPa],with curvature [kPa]");
   const study::TaxelResponse::Prediction& prediction = result.response.prediction;
   for (std::size_t i = 0; i < prediction.with_curvature.size(); ++i) {
-    table.row() << prediction.time[i] << prediction.reference[i] / kKilopascal
-                << prediction.without_curvature[i] / kKilopascal
-                << prediction.with_curvature[i] / kKilopascal;
+    table.row() << prediction.time[i] << prediction.reference[i] / kTableKilopascal
+                << prediction.without_curvature[i] / kTableKilopascal
+                << prediction.with_curvature[i] / kTableKilopascal;
   }
   return table.text();
 }

@@ -19,7 +19,7 @@ namespace fsr::simulation {
 
 namespace {
 
-EffectInfo info() {
+EffectInfo bendingGainInfo() {
   EffectInfo info;
   info.id = "bending_gain";
   info.summary = "sensitivity changed by bending: error at high pressure, by condition";
@@ -87,7 +87,7 @@ class BendingGain : public Effect {
 }  // namespace
 
 EffectEntry bendingGain() {
-  return {info(), makeEffect<BendingGain>};
+  return {bendingGainInfo(), makeEffect<BendingGain>};
 }
 
 }  // namespace fsr::simulation

@@ -17,7 +17,7 @@ namespace fsr::simulation {
 
 namespace {
 
-EffectInfo info() {
+EffectInfo bendingPreloadInfo() {
   EffectInfo info;
   info.id = "bending_preload";
   info.summary = "standing load from bending: offset at low pressure, by condition";
@@ -83,7 +83,7 @@ class BendingPreload : public Effect {
 }  // namespace
 
 EffectEntry bendingPreload() {
-  return {info(), makeEffect<BendingPreload>};
+  return {bendingPreloadInfo(), makeEffect<BendingPreload>};
 }
 
 }  // namespace fsr::simulation

@@ -15,7 +15,7 @@ namespace fsr::simulation {
 
 namespace {
 
-EffectInfo info() {
+EffectInfo breakInInfo() {
   EffectInfo info;
   info.id = "break_in";
   info.summary = "the first cycles after mounting differ";
@@ -63,7 +63,7 @@ class BreakIn : public Effect {
 }  // namespace
 
 EffectEntry breakIn() {
-  return {info(), makeEffect<BreakIn>};
+  return {breakInInfo(), makeEffect<BreakIn>};
 }
 
 }  // namespace fsr::simulation

@@ -11,7 +11,7 @@ namespace fsr::simulation {
 
 namespace {
 
-EffectInfo info() {
+EffectInfo columnFaultInfo() {
   EffectInfo info;
   info.id = "column_fault";
   info.summary = "a column loses contact in bursts";
@@ -48,7 +48,7 @@ class ColumnFault : public Effect {
 }  // namespace
 
 EffectEntry columnFault() {
-  return {info(), makeEffect<ColumnFault>};
+  return {columnFaultInfo(), makeEffect<ColumnFault>};
 }
 
 }  // namespace fsr::simulation

@@ -15,7 +15,7 @@ namespace fsr::simulation {
 
 namespace {
 
-EffectInfo info() {
+EffectInfo converterInfo() {
   EffectInfo info;
   info.id = "converter";
   info.summary = "conductance to counts; rounding and clipping at the end of the chain";
@@ -57,7 +57,7 @@ class Converter : public Effect {
 }  // namespace
 
 EffectEntry converter() {
-  return {info(), makeEffect<Converter>};
+  return {converterInfo(), makeEffect<Converter>};
 }
 
 }  // namespace fsr::simulation

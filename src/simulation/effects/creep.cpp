@@ -21,9 +21,9 @@ namespace fsr::simulation {
 
 namespace {
 
-constexpr double kElementsPerDecade = 2;
+constexpr double kCreepElements = 2;
 
-EffectInfo info() {
+EffectInfo creepInfo() {
   EffectInfo info;
   info.id = "creep";
   info.summary = "rise under a constant load (data sheets: drift), and its fading";
@@ -50,13 +50,13 @@ EffectInfo info() {
   return info;
 }
 
-std::vector<rheology::ExponentialMemory> elements(double fastest, double slowest) {
+std::vector<rheology::ExponentialMemory> creepElements(double fastest, double slowest) {
   if (slowest < fastest)
     throw settings::InputError("effects.creep: slowest must not be shorter than fastest");
-  const long steps = std::lround(kElementsPerDecade * std::log10(slowest / fastest));
+  const long steps = std::lround(kCreepElements * std::log10(slowest / fastest));
   std::vector<rheology::ExponentialMemory> memories;
   for (long i = 0; i <= steps; ++i) {
-    memories.emplace_back(fastest * std::pow(10, static_cast<double>(i) / kElementsPerDecade));
+    memories.emplace_back(fastest * std::pow(10, static_cast<double>(i) / kCreepElements));
   }
   return memories;
 }
@@ -64,10 +64,10 @@ std::vector<rheology::ExponentialMemory> elements(double fastest, double slowest
 class Creep : public Effect {
  public:
   Creep(const EffectValues& values, const EffectContext& context)
-      : weight_(values.at("per_decade") / kElementsPerDecade),
+      : weight_(values.at("per_decade") / kCreepElements),
         load_share_(1 - values.at("gain_share")),
         gain_share_(values.at("gain_share") / values.at("span")),
-        memories_(elements(values.at("fastest"), values.at("slowest"))),
+        memories_(creepElements(values.at("fastest"), values.at("slowest"))),
         steps_(memories_.size()) {
     state_.assign(context.layout.size.taxels() * (1 + memories_.size()), 0.0);
   }
@@ -105,7 +105,7 @@ class Creep : public Effect {
 }  // namespace
 
 EffectEntry creep() {
-  return {info(), makeEffect<Creep>};
+  return {creepInfo(), makeEffect<Creep>};
 }
 
 }  // namespace fsr::simulation

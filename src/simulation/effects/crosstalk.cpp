@@ -17,7 +17,7 @@ namespace fsr::simulation {
 
 namespace {
 
-EffectInfo info() {
+EffectInfo crosstalkInfo() {
   EffectInfo info;
   info.id = "crosstalk";
   info.summary = "loaded neighbours on the same wires lower a reading";
@@ -78,7 +78,7 @@ class Crosstalk : public Effect {
 }  // namespace
 
 EffectEntry crosstalk() {
-  return {info(), makeEffect<Crosstalk>};
+  return {crosstalkInfo(), makeEffect<Crosstalk>};
 }
 
 }  // namespace fsr::simulation

@@ -11,7 +11,7 @@ namespace fsr::simulation {
 
 namespace {
 
-EffectInfo info() {
+EffectInfo deadTaxelInfo() {
   EffectInfo info;
   info.id = "dead_taxel";
   info.summary = "a taxel that conducts nothing";
@@ -45,7 +45,7 @@ class DeadTaxel : public Effect {
 }  // namespace
 
 EffectEntry deadTaxel() {
-  return {info(), makeEffect<DeadTaxel>};
+  return {deadTaxelInfo(), makeEffect<DeadTaxel>};
 }
 
 }  // namespace fsr::simulation

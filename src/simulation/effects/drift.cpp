@@ -23,7 +23,7 @@ namespace {
 
 constexpr double kHour = 3600;  // [s]
 
-EffectInfo info() {
+EffectInfo driftInfo() {
   EffectInfo info;
   info.id = "drift";
   info.summary = "slow change with clock time, whatever the load";
@@ -114,7 +114,7 @@ class Drift : public Effect {
 }  // namespace
 
 EffectEntry drift() {
-  return {info(), makeEffect<Drift>};
+  return {driftInfo(), makeEffect<Drift>};
 }
 
 }  // namespace fsr::simulation

@@ -15,7 +15,7 @@ namespace fsr::simulation {
 
 namespace {
 
-EffectInfo info() {
+EffectInfo edgeStiffnessInfo() {
   EffectInfo info;
   info.id = "edge_stiffness";
   info.summary = "taxels near the edge feel more or less of the load";
@@ -62,7 +62,7 @@ class EdgeStiffness : public Effect {
 }  // namespace
 
 EffectEntry edgeStiffness() {
-  return {info(), makeEffect<EdgeStiffness>};
+  return {edgeStiffnessInfo(), makeEffect<EdgeStiffness>};
 }
 
 }  // namespace fsr::simulation

@@ -41,7 +41,7 @@ namespace {
 constexpr int kPlays = 6;
 constexpr int kRayleighPlays = 64;
 
-EffectInfo info() {
+EffectInfo hysteresisInfo() {
   EffectInfo info;
   info.id = "hysteresis";
   info.summary = "loading against unloading, whatever the rate";
@@ -156,7 +156,7 @@ class Hysteresis : public Effect {
 }  // namespace
 
 EffectEntry hysteresis() {
-  return {info(), makeEffect<Hysteresis>};
+  return {hysteresisInfo(), makeEffect<Hysteresis>};
 }
 
 }  // namespace fsr::simulation

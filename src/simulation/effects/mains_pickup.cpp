@@ -15,7 +15,7 @@ namespace fsr::simulation {
 
 namespace {
 
-EffectInfo info() {
+EffectInfo mainsPickupInfo() {
   EffectInfo info;
   info.id = "mains_pickup";
   info.summary = "hum of the mains, folded down by the scan rate";
@@ -71,7 +71,7 @@ class MainsPickup : public Effect {
 }  // namespace
 
 EffectEntry mainsPickup() {
-  return {info(), makeEffect<MainsPickup>};
+  return {mainsPickupInfo(), makeEffect<MainsPickup>};
 }
 
 }  // namespace fsr::simulation

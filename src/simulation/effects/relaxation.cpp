@@ -25,9 +25,9 @@ namespace fsr::simulation {
 
 namespace {
 
-constexpr double kElementsPerDecade = 2;
+constexpr double kRelaxationElements = 2;
 
-EffectInfo info() {
+EffectInfo relaxationInfo() {
   EffectInfo info;
   info.id = "relaxation";
   info.summary = "fall under a constant load, and its recovery";
@@ -53,13 +53,13 @@ EffectInfo info() {
   return info;
 }
 
-std::vector<rheology::ExponentialMemory> elements(double fastest, double slowest) {
+std::vector<rheology::ExponentialMemory> relaxationElements(double fastest, double slowest) {
   if (slowest < fastest)
     throw settings::InputError("effects.relaxation: slowest must not be shorter than fastest");
-  const long steps = std::lround(kElementsPerDecade * std::log10(slowest / fastest));
+  const long steps = std::lround(kRelaxationElements * std::log10(slowest / fastest));
   std::vector<rheology::ExponentialMemory> memories;
   for (long i = 0; i <= steps; ++i) {
-    memories.emplace_back(fastest * std::pow(10, static_cast<double>(i) / kElementsPerDecade));
+    memories.emplace_back(fastest * std::pow(10, static_cast<double>(i) / kRelaxationElements));
   }
   return memories;
 }
@@ -69,7 +69,7 @@ class Relaxation : public Effect {
   Relaxation(const EffectValues& values, const EffectContext& context)
       : exponent_(values.at("exponent")),
         span_(values.at("span")),
-        memories_(elements(values.at("fastest"), values.at("slowest"))),
+        memories_(relaxationElements(values.at("fastest"), values.at("slowest"))),
         steps_(memories_.size()),
         weight_(values.at("relaxed_share") / static_cast<double>(memories_.size())) {
     state_.assign(context.layout.size.taxels() * (1 + memories_.size()), 0.0);
@@ -110,7 +110,7 @@ class Relaxation : public Effect {
 }  // namespace
 
 EffectEntry relaxation() {
-  return {info(), makeEffect<Relaxation>};
+  return {relaxationInfo(), makeEffect<Relaxation>};
 }
 
 }  // namespace fsr::simulation

@@ -20,7 +20,7 @@ namespace fsr::simulation {
 
 namespace {
 
-EffectInfo info() {
+EffectInfo repositioningInfo() {
   EffectInfo info;
   info.id = "repositioning";
   info.summary = "every mount lies a little differently";
@@ -116,7 +116,7 @@ class Repositioning : public Effect {
 }  // namespace
 
 EffectEntry repositioning() {
-  return {info(), makeEffect<Repositioning>};
+  return {repositioningInfo(), makeEffect<Repositioning>};
 }
 
 }  // namespace fsr::simulation

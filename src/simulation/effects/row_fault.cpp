@@ -11,7 +11,7 @@ namespace fsr::simulation {
 
 namespace {
 
-EffectInfo info() {
+EffectInfo rowFaultInfo() {
   EffectInfo info;
   info.id = "row_fault";
   info.summary = "a row loses contact in bursts";
@@ -49,7 +49,7 @@ class RowFault : public Effect {
 }  // namespace
 
 EffectEntry rowFault() {
-  return {info(), makeEffect<RowFault>};
+  return {rowFaultInfo(), makeEffect<RowFault>};
 }
 
 }  // namespace fsr::simulation

@@ -14,7 +14,7 @@ namespace fsr::simulation {
 
 namespace {
 
-EffectInfo info() {
+EffectInfo saturationInfo() {
   EffectInfo info;
   info.id = "saturation";
   info.summary = "the amplifier limits high readings";
@@ -59,7 +59,7 @@ class Saturation : public Effect {
 }  // namespace
 
 EffectEntry saturation() {
-  return {info(), makeEffect<Saturation>};
+  return {saturationInfo(), makeEffect<Saturation>};
 }
 
 }  // namespace fsr::simulation

@@ -12,7 +12,7 @@ namespace fsr::simulation {
 
 namespace {
 
-EffectInfo info() {
+EffectInfo scanSkewInfo() {
   EffectInfo info;
   info.id = "scan_skew";
   info.summary = "taxels of one scan are read one after the other";
@@ -49,7 +49,7 @@ class ScanSkew : public Effect {
 }  // namespace
 
 EffectEntry scanSkew() {
-  return {info(), makeEffect<ScanSkew>};
+  return {scanSkewInfo(), makeEffect<ScanSkew>};
 }
 
 }  // namespace fsr::simulation

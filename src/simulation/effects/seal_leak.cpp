@@ -27,9 +27,9 @@ namespace fsr::simulation {
 
 namespace {
 
-constexpr double kAmbient = 101325;  // [Pa]
+constexpr double kLeakAmbient = 101325;  // [Pa]
 
-EffectInfo info() {
+EffectInfo sealLeakInfo() {
   EffectInfo info;
   info.id = "seal_leak";
   info.summary = "gas leaks behind the taxels: like creep, but downwards";
@@ -80,9 +80,9 @@ class SealLeak : public Effect {
 
   // Rate at which the orifice raises the pressure of the cavity, times tau [Pa].
   double orificeFlow(double chamber, double cavity) const {
-    const double upstream = std::max(chamber, cavity) + kAmbient;
+    const double upstream = std::max(chamber, cavity) + kLeakAmbient;
     if (upstream <= 0 || chamber == cavity) return 0;
-    const double ratio = std::max(std::min(chamber, cavity) + kAmbient, 0.0) / upstream;
+    const double ratio = std::max(std::min(chamber, cavity) + kLeakAmbient, 0.0) / upstream;
     const double beyond = (ratio - critical_ratio_) / (1 - critical_ratio_);
     const double psi = beyond <= 0 ? 1 : std::sqrt(1 - beyond * beyond);
     return std::copysign((1 - critical_ratio_) * upstream * psi, chamber - cavity);
@@ -123,7 +123,7 @@ class SealLeak : public Effect {
 }  // namespace
 
 EffectEntry sealLeak() {
-  return {info(), makeEffect<SealLeak>};
+  return {sealLeakInfo(), makeEffect<SealLeak>};
 }
 
 }  // namespace fsr::simulation

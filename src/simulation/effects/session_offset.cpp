@@ -17,7 +17,7 @@ namespace fsr::simulation {
 
 namespace {
 
-EffectInfo info() {
+EffectInfo sessionOffsetInfo() {
   EffectInfo info;
   info.id = "session_offset";
   info.summary = "each taxel has another zero in each session";
@@ -72,7 +72,7 @@ class SessionOffset : public Effect {
 }  // namespace
 
 EffectEntry sessionOffset() {
-  return {info(), makeEffect<SessionOffset>};
+  return {sessionOffsetInfo(), makeEffect<SessionOffset>};
 }
 
 }  // namespace fsr::simulation

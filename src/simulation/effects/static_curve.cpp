@@ -15,7 +15,7 @@ namespace fsr::simulation {
 
 namespace {
 
-EffectInfo info() {
+EffectInfo staticCurveInfo() {
   EffectInfo info;
   info.id = "static_curve";
   info.summary = "conductance under a steady load, taxel by taxel";
@@ -78,7 +78,7 @@ class StaticCurve : public Effect {
 }  // namespace
 
 EffectEntry staticCurve() {
-  return {info(), makeEffect<StaticCurve>};
+  return {staticCurveInfo(), makeEffect<StaticCurve>};
 }
 
 }  // namespace fsr::simulation

@@ -12,7 +12,7 @@ namespace fsr::simulation {
 
 namespace {
 
-EffectInfo info() {
+EffectInfo stuckTaxelInfo() {
   EffectInfo info;
   info.id = "stuck_taxel";
   info.summary = "a taxel that always reads the same";
@@ -58,7 +58,7 @@ class StuckTaxel : public Effect {
 }  // namespace
 
 EffectEntry stuckTaxel() {
-  return {info(), makeEffect<StuckTaxel>};
+  return {stuckTaxelInfo(), makeEffect<StuckTaxel>};
 }
 
 }  // namespace fsr::simulation

@@ -15,7 +15,7 @@ namespace fsr::simulation {
 
 namespace {
 
-EffectInfo info() {
+EffectInfo supplyDroopInfo() {
   EffectInfo info;
   info.id = "supply_droop";
   info.summary = "the driving voltage sinks with the total load";
@@ -51,7 +51,7 @@ class SupplyDroop : public Effect {
 }  // namespace
 
 EffectEntry supplyDroop() {
-  return {info(), makeEffect<SupplyDroop>};
+  return {supplyDroopInfo(), makeEffect<SupplyDroop>};
 }
 
 }  // namespace fsr::simulation

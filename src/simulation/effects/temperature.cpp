@@ -24,7 +24,7 @@ namespace {
 
 constexpr double kZeroCelsius = 273.15;  // [K]
 
-EffectInfo info() {
+EffectInfo temperatureInfo() {
   EffectInfo info;
   info.id = "temperature";
   info.summary = "sensitivity changed by temperature, with a lag";
@@ -114,7 +114,7 @@ class Temperature : public Effect {
 }  // namespace
 
 EffectEntry temperature() {
-  return {info(), makeEffect<Temperature>};
+  return {temperatureInfo(), makeEffect<Temperature>};
 }
 
 }  // namespace fsr::simulation

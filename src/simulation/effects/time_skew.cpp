@@ -17,7 +17,7 @@ namespace fsr::simulation {
 
 namespace {
 
-EffectInfo info() {
+EffectInfo timeSkewInfo() {
   EffectInfo info;
   info.id = "time_skew";
   info.summary = "the matrix's stamps are late or early by one delay";
@@ -60,7 +60,7 @@ class TimeSkew : public Effect {
 }  // namespace
 
 EffectEntry timeSkew() {
-  return {info(), makeEffect<TimeSkew>};
+  return {timeSkewInfo(), makeEffect<TimeSkew>};
 }
 
 }  // namespace fsr::simulation

@@ -17,7 +17,7 @@ namespace {
 constexpr double kLow = -103e3;   // [Pa]
 constexpr double kSpan = 1137e3;  // [Pa]
 
-EffectInfo info() {
+EffectInfo transducerErrorInfo() {
   EffectInfo info;
   info.id = "transducer_error";
   info.summary = "the pressure reference itself is off";
@@ -58,7 +58,7 @@ class TransducerError : public Effect {
 }  // namespace
 
 EffectEntry transducerError() {
-  return {info(), makeEffect<TransducerError>};
+  return {transducerErrorInfo(), makeEffect<TransducerError>};
 }
 
 }  // namespace fsr::simulation

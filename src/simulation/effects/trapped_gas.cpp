@@ -14,9 +14,9 @@ namespace fsr::simulation {
 
 namespace {
 
-constexpr double kAmbient = 101325;  // [Pa]
+constexpr double kGasAmbient = 101325;  // [Pa]
 
-EffectInfo info() {
+EffectInfo trappedGasInfo() {
   EffectInfo info;
   info.id = "trapped_gas";
   info.summary = "sealed-in gas is squeezed and presses back";
@@ -45,7 +45,7 @@ class TrappedGas : public Effect {
   void apply(const RigSample& sample, TaxelSignals& signals) override {
     const double pressure = std::max(sample.pressure, 0.0);
     const double closed = closing_ * pressure / (pressure + half_pressure_);
-    const double back = kAmbient * closed / (1 - closed);
+    const double back = kGasAmbient * closed / (1 - closed);
     for (double& load : signals.load) load -= back;
   }
 
@@ -57,7 +57,7 @@ class TrappedGas : public Effect {
 }  // namespace
 
 EffectEntry trappedGas() {
-  return {info(), makeEffect<TrappedGas>};
+  return {trappedGasInfo(), makeEffect<TrappedGas>};
 }
 
 }  // namespace fsr::simulation

@@ -17,7 +17,7 @@ namespace fsr::simulation {
 
 namespace {
 
-EffectInfo info() {
+EffectInfo turnOnInfo() {
   EffectInfo info;
   info.id = "turn_on";
   info.summary = "nothing is read below a pressure, which bending lowers";
@@ -67,7 +67,7 @@ class TurnOn : public Effect {
 }  // namespace
 
 EffectEntry turnOn() {
-  return {info(), makeEffect<TurnOn>};
+  return {turnOnInfo(), makeEffect<TurnOn>};
 }
 
 }  // namespace fsr::simulation

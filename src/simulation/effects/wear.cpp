@@ -30,7 +30,7 @@ namespace {
 
 constexpr double kLifetime = 1e7;  // [cycles]
 
-EffectInfo info() {
+EffectInfo wearInfo() {
   EffectInfo info;
   info.id = "wear";
   info.summary = "sensitivity lost, or won, over millions of cycles";
@@ -121,7 +121,7 @@ class Wear : public Effect {
 }  // namespace
 
 EffectEntry wear() {
-  return {info(), makeEffect<Wear>};
+  return {wearInfo(), makeEffect<Wear>};
 }
 
 }  // namespace fsr::simulation

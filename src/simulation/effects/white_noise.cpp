@@ -16,7 +16,7 @@ namespace fsr::simulation {
 
 namespace {
 
-EffectInfo info() {
+EffectInfo whiteNoiseInfo() {
   EffectInfo info;
   info.id = "white_noise";
   info.summary = "independent noise of each reading";
@@ -59,7 +59,7 @@ class WhiteNoise : public Effect {
 }  // namespace
 
 EffectEntry whiteNoise() {
-  return {info(), makeEffect<WhiteNoise>};
+  return {whiteNoiseInfo(), makeEffect<WhiteNoise>};
 }
 
 }  // namespace fsr::simulation
