@@ -3,7 +3,8 @@
 #include <ctime>
 
 #include "dataset/conditioning.h"
-#include "dataset/mount_remarks.h"
+#include "dataset/mounts/differing_mounts.h"
+#include "dataset/mounts/mount_remarks.h"
 
 namespace fsr::calibration {
 
@@ -61,6 +62,10 @@ std::vector<std::uint8_t> unionOfMasks(const std::vector<dataset::Recording>& re
 std::vector<std::string> warningsOf(const std::vector<dataset::Recording>& recordings,
                                     const std::vector<dataset::Sections>& sections) {
   std::vector<std::string> warnings;
+  // First, because a summary prints the first ones only.
+  for (const dataset::MountRemark& remark : dataset::remarksOnDifferingMounts(recordings)) {
+    warnings.push_back(remark.sentence);
+  }
   for (std::size_t r = 0; r < recordings.size(); ++r) {
     for (const std::string& warning : recordings[r].warnings) {
       warnings.push_back(recordings[r].name + ": " + warning);

@@ -91,8 +91,9 @@ std::string because(const std::vector<std::string>& reasons) {
 
 std::string verdict(const discrepancy::Admission& admission, const std::vector<std::string>& problems) {
   if (!problems.empty()) return "Not fit" + because(problems) + ".";
-  if (admission.discrepancy.empty()) return "Fit for training and for discrepancy.";
-  return "Fit for training; not for discrepancy, because " + admission.discrepancy + ".";
+  const std::string look = admission.mounts.empty() ? "" : " First look at the mounts that differ.";
+  if (admission.discrepancy.empty()) return "Fit for training and for discrepancy." + look;
+  return "Fit for training; not for discrepancy, because " + admission.discrepancy + "." + look;
 }
 
 void addRests(const calibration::SocketCheck& check, std::ostringstream& out) {
@@ -127,6 +128,7 @@ std::string admissionText(const discrepancy::Admission& admission) {
   if (!admission.coverage.conditions.empty()) out << '\n' << coverageText(admission.coverage);
   out << '\n';
   for (const std::string& remark : admission.remarks) out << "Note: " << remark << '\n';
+  for (const std::string& mount : admission.mounts) out << "Mounts differ: " << mount << '\n';
   std::vector<std::string> problems = admission.problems;
   if (!admission.training.empty()) problems.insert(problems.begin(), admission.training);
   for (const std::string& problem : problems) out << "Problem: " << problem << '\n';

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "support/mounted_day.h"
 #include "support/synthetic_recording.h"
 
 namespace fsr::calibration {
@@ -37,6 +38,18 @@ TEST(NewMountLine, NamesTheMountThatIsNotLikeTheOthers) {
   EXPECT_TRUE(has(note, "on a new mount of a known surface 68 % of the readings err by at most ")) << note;
   EXPECT_TRUE(has(note, "; worst of 5 mounts: mount_4.bag, cylinder_6cm, mount 4, RMSE ")) << note;
   EXPECT_TRUE(has(note, "; next: see whether that mount was as declared")) << note;
+}
+
+TEST(NewMountLine, TheFirstWarningNamesMountsThatDifferAlsoWhereEitherMayBeWrong) {
+  for (const bool wrong : {true, false}) {
+    CalibrationProblem problem{test_support::recorded({"bench", 2, wrong}), {}};
+    problem.options.choose_bandwidth = false;
+    problem.options.history = {false, compensation::HistoryFamily::kNone};
+    const Calibration calibration = calibrate(problem);
+    const std::string first = calibration.warnings.empty() ? "" : calibration.warnings.front();
+    EXPECT_EQ(has(first, "cylinder_10cm: mount 1 (1_cylinder_10cm.bag) and mount 5 "), wrong) << first;
+    EXPECT_EQ(has(first, "two mounts, either may be wrong"), wrong) << first;
+  }
 }
 
 TEST(NewMountLine, NamesTheWorstMountWithoutAVerdictWhereAllAreAlike) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "support/mounted_day.h"
 #include "support/synthetic_recording.h"
 
 namespace fsr::discrepancy {
@@ -32,6 +33,13 @@ TEST(Admission, FindsSoundRecordingsFitForBothUses) {
   EXPECT_EQ(admission.discrepancy, "");
   EXPECT_EQ(admission.coverage.conditions.size(), 2u);
   EXPECT_EQ(admission.recordings.at(1).name, "cylinder_7cm.bag");
+}
+
+TEST(Admission, NamesTheMountsThatDifferFromTheOthersOfTheirSurface) {
+  const Admission admission = inspectRecordings(test_support::recorded({"bench", 2, true}));
+  ASSERT_EQ(admission.mounts.size(), 1u);
+  EXPECT_EQ(admission.mounts[0].find("cylinder_10cm: mount 1 (1_cylinder_10cm.bag) and mount 5 "), 0u);
+  EXPECT_TRUE(inspectRecordings(test_support::recorded({"bench", 2, false})).mounts.empty());
 }
 
 TEST(Admission, SaysWhyTrainingWouldRefuse) {

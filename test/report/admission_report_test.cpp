@@ -57,6 +57,12 @@ TEST(AdmissionText, EndsWithTheUseThatTheRecordingsAreFitFor) {
   admission.discrepancy = "one cycle is not enough";
   EXPECT_EQ(lastLine(admissionText(admission)),
             "Fit for training; not for discrepancy, because one cycle is not enough.\n");
+  admission.mounts = {"flat: mount 1 and mount 2 differ"};
+  EXPECT_EQ(lastLine(admissionText(admission)),
+            "Fit for training; not for discrepancy, because one cycle is not enough. First look at the mounts "
+            "that differ.\n");
+  EXPECT_NE(admissionText(admission).find("\nMounts differ: flat: mount 1 and mount 2 differ\n"),
+            std::string::npos);
   admission.problems = {"no pressure", "no curvature"};
   EXPECT_EQ(lastLine(admissionText(admission)), "Not fit, because no pressure; and 1 more.\n");
 }

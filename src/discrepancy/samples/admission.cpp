@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "calibration/sources.h"
+#include "dataset/mounts/differing_mounts.h"
 #include "fsr_pressure_map/calibration/calibration.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "settings/number_text.h"
@@ -135,6 +136,9 @@ Admission inspectRecordings(std::vector<dataset::Recording> recordings, const Ad
       admission.remarks.push_back(recording.name + ": " + warning);
     }
     admission.recordings.push_back(looked);
+  }
+  for (const dataset::MountRemark& remark : dataset::remarksOnDifferingMounts(recordings)) {
+    admission.mounts.push_back(remark.sentence);
   }
   admission.training = trainingRefusal(recordings, options);
   if (admission.training.empty())

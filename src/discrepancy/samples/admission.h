@@ -44,6 +44,7 @@ struct Admission {
   std::string training;       ///< why `train` would refuse the recordings; empty = it accepts them
   std::string discrepancy;    ///< why `discrepancy` would refuse them; empty = it accepts them
   std::vector<std::string> problems;  ///< why the result of a training would mislead, worst first
+  std::vector<std::string> mounts;    ///< that differ from the others of their surface
   std::vector<std::string> remarks;   ///< what else a user should know
 
   bool fit() const { return training.empty() && problems.empty(); }

@@ -1,4 +1,4 @@
-#include "dataset/mount_remarks.h"
+#include "dataset/mounts/mount_remarks.h"
 
 #include <gtest/gtest.h>
 

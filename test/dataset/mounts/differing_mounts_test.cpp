@@ -1,0 +1,76 @@
+#include "dataset/mounts/differing_mounts.h"
+
+#include <gtest/gtest.h>
+
+#include <iostream>
+
+#include "support/mounted_day.h"
+
+namespace fsr::dataset {
+namespace {
+
+using test_support::recorded;
+
+TEST(DifferingMounts, OfTwoMountsEitherMayBeWrong) {
+  const auto remarks = remarksOnDifferingMounts(recorded({"bench", 2, true}));
+  ASSERT_EQ(remarks.size(), 1u);
+  EXPECT_EQ(remarks[0].recording, 4u);
+  EXPECT_EQ(
+      remarks[0].sentence,
+      "cylinder_10cm: mount 1 (1_cylinder_10cm.bag) and mount 5 (5_cylinder_10cm.bag) differ by 9.7 "
+      "kPa, mounts of one surface usually by 0.0 kPa; two mounts, either may be wrong: see whether both "
+      "lay on the surface that was declared");
+}
+
+TEST(DifferingMounts, OfThreeMountsTheWrongOneIsNamed) {
+  const auto remarks = remarksOnDifferingMounts(recorded({"bench", 3, true}));
+  ASSERT_EQ(remarks.size(), 1u);
+  EXPECT_EQ(remarks[0].recording, 4u);
+  EXPECT_EQ(remarks[0].sentence.find("cylinder_10cm: mount 5 (5_cylinder_10cm.bag) differs by "), 0u);
+  EXPECT_NE(remarks[0].sentence.find(" from the other 2 mounts of this surface"), std::string::npos);
+}
+
+TEST(DifferingMounts, ACleanDayHasNone) {
+  for (const std::string rig : {"bench", "demo", "remounted"})
+    EXPECT_TRUE(remarksOnDifferingMounts(recorded({rig})).empty()) << rig;
+}
+
+TEST(DifferingMounts, AMountWithoutDwellsIsLikeThoseWithThem) {
+  std::vector<Recording> day = recorded({"demo"});
+  Recording& last = day.back();
+  for (const auto cut = std::size_t(0.8 * double(last.scans())); last.time.size() > cut;) {
+    last.time.pop_back(), last.pressure.pop_back(), last.condition.pop_back();
+  }
+  last.counts.resize(last.scans() * last.layout.size.taxels());
+  EXPECT_TRUE(remarksOnDifferingMounts(day).empty());
+}
+
+TEST(DifferingMounts, AreNotToldWhereTheScatterOfMountsIsUnknown) {
+  std::vector<Recording> day = recorded({"bench", 2, true});
+  EXPECT_TRUE(remarksOnDifferingMounts({day[0], day[1], day[4]}).empty()) << "one surface was mounted twice";
+  for (Recording& recording : day) recording.conditions[0].mount = 0;
+  EXPECT_TRUE(remarksOnDifferingMounts(day).empty()) << "no numbers";
+  EXPECT_TRUE(remarksOnDifferingMounts({}).empty());
+  Recording without;
+  EXPECT_TRUE(remarksOnDifferingMounts({without}).empty());
+}
+
+// The table in docs/training.md. Slow: run it with --gtest_also_run_disabled_tests.
+TEST(DifferingMounts, DISABLED_InManyDays) {
+  constexpr unsigned kSeeds = 20;
+  for (const std::string rig : {"core", "bench", "demo", "remounted"}) {
+    for (const int rounds : {2, 3}) {
+      std::size_t said = 0, found = 0;
+      for (unsigned seed = 1; seed <= kSeeds; ++seed) {
+        said += remarksOnDifferingMounts(recorded({rig, rounds, false, seed})).empty() ? 0 : 1;
+        const auto remarks = remarksOnDifferingMounts(recorded({rig, rounds, true, seed}));
+        found += !remarks.empty() && remarks[0].sentence.find("mount 5") != std::string::npos ? 1 : 0;
+      }
+      std::cout << rig << ", " << rounds << " mounts a surface: " << said << " clean days with a remark, "
+                << found << " wrong mounts named, of " << kSeeds << std::endl;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace fsr::dataset
