@@ -12,6 +12,7 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "ros/bags/bag_topics.h"
 #include "ros/bags/bag_writer.h"
+#include "support/mounted_day.h"
 #include "support/synthetic_recording.h"
 
 namespace fsr_ros {
@@ -71,6 +72,22 @@ TEST_F(CheckBagTool, EndsWithItsVerdict) {
   EXPECT_TRUE(ends("\nFit for training and for discrepancy.\n")) << said_;
   EXPECT_TRUE(says("/fsr/raw"));
   EXPECT_TRUE(says("Coverage"));
+}
+
+TEST_F(CheckBagTool, NamesTheMountsThatDifferFromTheOthersOfTheirSurface) {
+  for (const bool wrong : {true, false}) {
+    std::vector<std::string> paths;
+    for (const fsr::dataset::Recording& mount : test_support::recorded({"bench", 2, wrong})) {
+      paths.push_back((folder_ / (wrong ? "wrong_" + mount.name : mount.name)).string());
+      writeBag(paths.back(), mount);
+    }
+    EXPECT_EQ(run(paths), 0);
+    EXPECT_EQ(says("\nMounts differ: cylinder_10cm: mount 1 (wrong_1_cylinder_10cm.bag) and mount 5 "
+                   "(wrong_5_cylinder_10cm.bag) differ by "),
+              wrong)
+        << said_;
+    EXPECT_EQ(ends(" First look at the mounts that differ.\n"), wrong) << said_;
+  }
 }
 
 TEST_F(CheckBagTool, ReportsNotFitAlsoByItsExitStatusIfStrict) {

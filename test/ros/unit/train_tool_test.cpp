@@ -17,6 +17,7 @@
 #include "ros/tools/map_gain.h"
 #include "support/example_discrepancy.h"
 #include "support/memory_rig.h"
+#include "support/mounted_day.h"
 #include "support/synthetic_recording.h"
 
 namespace fsr_ros {
@@ -62,6 +63,26 @@ class TrainTool : public testing::Test {
   fs::path folder_;
   std::string bend_;
 };
+
+TEST_F(TrainTool, TheFirstWarningNamesTheMountsThatDifferFromTheOthersOfTheirSurface) {
+  for (const bool wrong : {true, false}) {
+    std::vector<std::string> words;
+    for (const fsr::dataset::Recording& mount : test_support::recorded({"bench", 2, wrong})) {
+      words.push_back((folder_ / (wrong ? "wrong_" + mount.name : mount.name)).string());
+      writeBag(words.back(), mount);
+    }
+    const std::string output = (folder_ / (wrong ? "wrong.h5" : "clean.h5")).string();
+    words.insert(words.end(), {"--output", output, "--history", "none"});
+    const std::string text = run(words);
+    const std::size_t warning = text.find("Warning: ");
+    const std::string names = "Warning: cylinder_10cm: mount 1 (wrong_1_cylinder_10cm.bag) and mount 5 ";
+    EXPECT_EQ(warning != std::string::npos && text.compare(warning, names.size(), names) == 0, wrong) << text;
+    EXPECT_EQ(text.find("mounts of one surface usually") != std::string::npos, wrong) << text;
+    EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 30) << text;
+    const std::vector<std::string> kept = fsr::calibration::loadCalibration(output).warnings;
+    EXPECT_EQ(!kept.empty() && ("Warning: " + kept[0]).find(names) == 0, wrong) << "in the file";
+  }
+}
 
 TEST_F(TrainTool, PrintsCoverageThenScoresThenThePath) {
   const std::string flat = record("flat.bag", {"flat", 0.0});
