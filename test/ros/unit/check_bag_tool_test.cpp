@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <sstream>
 
@@ -181,6 +182,28 @@ TEST_F(CheckBagTool, CountsStampsThatRunBackwards) {
   EXPECT_EQ(course.repeated, 1u);
   EXPECT_NEAR(course.longest_gap, 1.0, 1e-6);
   EXPECT_NEAR(course.latest, 3.5 - 1.15, 1e-6);
+}
+
+TEST_F(CheckBagTool, CountsAndNamesAGapThatNoCounterShows) {
+  test_support::SyntheticRig rig;
+  fsr::dataset::Recording recording = test_support::syntheticRecording(rig);
+  recording.start_ns = kStart;
+  for (std::size_t i = recording.scans() / 2; i < recording.scans(); ++i) recording.time[i] += 276;
+  const std::string path = (folder_ / "table.bag").string();
+  writeBag(path, recording);
+  EXPECT_EQ(run({path}), 0);
+  EXPECT_TRUE(says("\nNote: table.bag: no scan came for 276.1 s (24.9 to 301.0 s)\n")) << said_;
+  EXPECT_TRUE(says("\nNote: table.bag: 1 gap between scans, 0 scans lost by the board's counter\n")) << said_;
+}
+
+TEST_F(CheckBagTool, NamesAMatrixThatAnswersBeforeTheChamber) {
+  fsr::dataset::Recording recording = test_support::syntheticRecording({});
+  recording.start_ns = kStart;
+  std::rotate(recording.pressure.begin(), recording.pressure.end() - 3, recording.pressure.end());
+  const std::string path = (folder_ / "late_reference.bag").string();
+  writeBag(path, recording);
+  EXPECT_EQ(run({path}), 0);
+  EXPECT_TRUE(says(" s before chamber_pressure, which no sheet does")) << said_;
 }
 
 TEST_F(CheckBagTool, RefusesWhatItCannotRead) {
