@@ -68,6 +68,12 @@ std::string pacesText(const std::vector<dataset::CycleCourse>& paces) {
   return text.empty() ? "" : "paces:" + text + "\n";
 }
 
+std::string readingsText(const std::vector<std::string>& readings) {
+  std::string text;
+  for (const std::string& sha256 : readings) text += "\n  - \"" + sha256 + "\"";
+  return text.empty() ? "" : "readings_sha256:" + text + "\n";
+}
+
 std::size_t readCount(const settings::Settings& file, const std::string& key) {
   return static_cast<std::size_t>(file.number(key, {0, 1e9}));
 }
@@ -105,8 +111,8 @@ std::string predictionText(const FrozenPrediction& frozen) {
          frozen.verdict_sha256 + "\"\neffects: " + effectsText(prediction.effects) +
          "\nrivals:" + (rivals.empty() ? " []" : rivals) + "\nsize: [" +
          settings::numberText(prediction.size.low) + ", " + settings::numberText(prediction.size.high) +
-         "]\n" + distributionText(prediction) + pacesText(frozen.paces) + "hash: \"" + prediction.hash +
-         "\"\n";
+         "]\n" + distributionText(prediction) + pacesText(frozen.paces) +
+         readingsText(frozen.readings_sha256) + "hash: \"" + prediction.hash + "\"\n";
 }
 
 FrozenPrediction readPrediction(const std::string& path) {
@@ -128,6 +134,7 @@ FrozenPrediction readPrediction(const std::string& path) {
       frozen.paces.push_back({pace.number("speed", kAnyNumber), pace.number("dwell", kAnyNumber),
                               pace.number("peak", kAnyNumber)});
   }
+  if (file.has("readings_sha256")) frozen.readings_sha256 = file.texts("readings_sha256");
   frozen.prediction.hash = file.text("hash");
   file.refuseUnknown();
   return frozen;

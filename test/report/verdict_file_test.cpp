@@ -177,7 +177,8 @@ TEST_F(VerdictOnDisk, RefusalsNameTheFieldAndWhatWouldBeRight) {
 
 TEST_F(VerdictOnDisk, PredictionKeepsEveryBit) {
   const discrepancy::Prediction prediction = exampleDiscrepancy().prediction;
-  write(predictionText({prediction, std::string(64, 'd'), {{17e3, 2, 620e3}, {40e3, 8.5, 620e3}}}));
+  write(predictionText(
+      {prediction, std::string(64, 'd'), {{17e3, 2, 620e3}, {40e3, 8.5, 620e3}}, {"ab12", "34"}}));
   const FrozenPrediction read = readPrediction(path_);
   EXPECT_EQ(read.verdict_sha256, std::string(64, 'd'));
   EXPECT_EQ(read.prediction.hash, prediction.hash);
@@ -189,6 +190,7 @@ TEST_F(VerdictOnDisk, PredictionKeepsEveryBit) {
   EXPECT_EQ(read.prediction.spread.groups, 3u);
   ASSERT_EQ(read.paces.size(), 2u);
   EXPECT_EQ(read.paces[1].dwell, 8.5);
+  EXPECT_EQ(read.readings_sha256, (std::vector<std::string>{"ab12", "34"}));
   ASSERT_EQ(read.prediction.spread.parameters.size(), 2u);
   EXPECT_EQ(read.prediction.spread.parameters[1].name, "threshold");
   EXPECT_TRUE(read.prediction.spread.parameters[1].logarithmic);

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "dataset/count_readers.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "report/discrepancy_report.h"
 #include "report/verdict_file.h"
@@ -59,7 +60,7 @@ std::map<std::string, std::string> discrepancyFiles() {
 }
 
 void writeDiscrepancy(const fsr::discrepancy::DiscrepancyReport& report, const std::string& folder,
-                      const std::vector<fsr::dataset::CycleCourse>& paces) {
+                      const std::vector<fsr::dataset::Recording>& recordings) {
   const std::string figures = outputFolder(folder + "/figures");
   for (const auto& [name, table] : fsr::report::discrepancyTables(report))
     fsr::settings::replaceFile(figures + "/" + name, table);
@@ -70,11 +71,20 @@ void writeDiscrepancy(const fsr::discrepancy::DiscrepancyReport& report, const s
       {});
   writeSimulation(report.added, folder, "simulation.yaml", heading(report), fsr::report::fitRemarks(report));
   const std::string verdict = fsr::report::verdictText(report);
-  fsr::settings::replaceFile(
-      folder + "/prediction.yaml",
-      fsr::report::predictionText(
-          {report.prediction, fsr::settings::sha256(verdict.data(), verdict.size()), paces}));
+  fsr::report::FrozenPrediction frozen{report.prediction,
+                                       fsr::settings::sha256(verdict.data(), verdict.size()),
+                                       fsr::dataset::pacesOf(recordings)};
+  for (const fsr::dataset::Recording& one : recordings) frozen.readings_sha256.push_back(readingsSha256(one));
+  fsr::settings::replaceFile(folder + "/prediction.yaml", fsr::report::predictionText(frozen));
   fsr::settings::replaceFile(folder + "/verdict.yaml", verdict);
+}
+
+std::string readingsSha256(const fsr::dataset::Recording& recording) {
+  fsr::settings::Sha256 sum;
+  fsr::dataset::ScanCounts counts(recording);
+  const std::size_t bytes = recording.layout.size.taxels() * sizeof(std::uint16_t);
+  for (std::size_t i = 0; i < recording.scans(); ++i) sum.add(counts[i], bytes);
+  return sum.hexadecimal();
 }
 
 StoredPrediction readPredictionBeside(const std::string& verdict_path) {

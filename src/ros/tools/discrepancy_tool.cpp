@@ -175,7 +175,7 @@ int find(const fsr::settings::CommandLine& line, std::ostream& out) {
   countUses(report);
   if (!report.hold_out.empty()) report.recompute = recomputeByNames(folder, line);
   report.map_gain = gainForTheMap(problem, report);
-  writeDiscrepancy(report, folder, fsr::dataset::pacesOf(problem.recordings));
+  writeDiscrepancy(report, folder, problem.recordings);
   const std::string verdict = (fs::path(line.requiredText("output")) / "verdict.yaml").string();
   if (!report.hold_out.empty())
     report.recompute = recomputeCommand(verdict, {line.files(), bagReadOptions(line)});
@@ -183,16 +183,22 @@ int find(const fsr::settings::CommandLine& line, std::ostream& out) {
   return line.has("no-report") ? 0 : drawReport(folder, out);
 }
 
-// A bag that was used to find the verdict cannot confirm it.
+// A bag that was used to find the verdict cannot confirm it, nor can a copy that was compressed or written
+// anew.
 void requireNew(const std::vector<fsr::dataset::Recording>& recordings,
-                const fsr::report::VerdictFile& verdict, const std::string& path) {
+                const fsr::report::VerdictFile& verdict, const std::vector<std::string>& used_readings,
+                const std::string& path) {
   for (const fsr::dataset::Recording& recording : recordings) {
-    for (const fsr::discrepancy::InputUse& used : verdict.inputs) {
-      if (used.sha256 != recording.sha256) continue;
-      throw fsr::settings::InputError(
-          recording.name + ": " + path +
-          " was made from this bag; only a bag recorded afterwards can confirm it");
-    }
+    const auto isBag = [&](const fsr::discrepancy::InputUse& used) {
+      return used.sha256 == recording.sha256;
+    };
+    const std::string readings = readingsSha256(recording);
+    const bool used = std::any_of(verdict.inputs.begin(), verdict.inputs.end(), isBag);
+    const bool copied = std::count(used_readings.begin(), used_readings.end(), readings) > 0;
+    if (!used && !copied) continue;
+    throw fsr::settings::InputError(recording.name + ": " + path + " was made from " +
+                                    (used ? "this bag" : "a bag with the same readings") +
+                                    "; only a bag recorded afterwards can confirm it");
   }
 }
 
@@ -214,7 +220,7 @@ int confirmVerdict(const fsr::settings::CommandLine& line, std::ostream& out) {
   }
   const std::vector<fsr::dataset::Recording> recordings =
       readBags({bagsOf(line), bagReadOptions(line)}, false, toolProgress());
-  requireNew(recordings, verdict, path);
+  requireNew(recordings, verdict, stored.frozen.readings_sha256, path);
   fsr::discrepancy::Confirmation answer =
       fsr::discrepancy::confirm(stored.frozen.prediction, stored.base, recordings);
   // What imitates the effect in the cycles of the verdict imitates it in such cycles again.

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "discrepancy/planted.h"
+#include "fsr_pressure_map/ros/bag_reader.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "report/verdict_file.h"
 #include "ros/bags/bag_writer.h"
@@ -235,6 +236,14 @@ TEST_F(DiscrepancyTool, ConfirmsByBagsThatAreNewWhatItPredicted) {
   const std::string said = with({"--output", path("out"), "--no-report"}, first);
   ASSERT_FALSE(fsr::report::readVerdict(path("out/verdict.yaml")).effects.empty()) << said;
   expectSaid(with({"--confirm", path("out/verdict.yaml")}, first), {"loop0.bag", "made from this bag"});
+  std::vector<std::string> copies;  // written anew, with other stamps of reception
+  for (const std::string& one : first) {
+    fsr::dataset::Recording copy = readBag(one);
+    copy.start_ns += 86'400'000'000'000;
+    copies.push_back(bag("copy" + std::to_string(copies.size()) + ".bag", copy));
+  }
+  expectSaid(with({"--confirm", path("out/verdict.yaml")}, copies),
+             {"copy0.bag", "made from a bag with the same readings"});
   expectSaid(with({"--confirm", path("out/verdict.yaml")}, session("again", 8, loop)),
              {"Confirmed: ", "Same protocol: proves little", "Written: " + path("out/confirmation.yaml")});
   expectSaid(with({"--confirm", path("out/verdict.yaml")}, session("without", 9, "")),
