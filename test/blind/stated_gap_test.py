@@ -77,8 +77,11 @@ class StatedGap(unittest.TestCase):
         self.run_tool(DISCREPANCY, *bags, "--simulation", "base.yaml", "--output", "found", "--no-report", "--threads", "1")
         return bags, yaml.safe_load((self.root / "found" / "verdict.yaml").read_text())
 
-    def by_the_named_command(self, verdict):
-        """{(file, surface or None): (recomputed, stated)} [% of full scale]."""
+    def by_the_named_command(self, verdict, bags):
+        """{(file, surface or None): (recomputed, stated)} [% of full scale]. The command has names only, so the
+        bags lie beside the verdict's folder."""
+        for bag in bags:
+            (self.root / bag.name).symlink_to(bag)
         words = shlex.split(verdict["recompute"])
         self.assertEqual(words[:3], ["rosrun", "fsr_pressure_map", "simulate"])
         said, file = {}, None
@@ -98,7 +101,7 @@ class StatedGap(unittest.TestCase):
         gap = verdict["gap"]
         again = recompute.recompute([SIMULATE], bags, verdict, self.root / "found", self.root / "work", self.environment)
         self.assertNotIn("problem", again)
-        said = self.by_the_named_command(verdict)
+        said = self.by_the_named_command(verdict, bags)
         self.assertEqual(len(said), 2 * (1 + len(gap["surfaces"])))
         for when, file in (("before", "base.yaml"), ("after", "simulation.yaml")):
             self.assert_near(gap[when], again[when], "%s %s, stated and by simulate --drive" % (effect, when))

@@ -63,9 +63,12 @@ class Surface {
     const double low = quantile(readings_, kRareScans);
     const double range = quantile(loads, 1 - kRareScans), span = quantile(readings_, 1 - kRareScans) - low;
     rests_ = std::abs(quantile(pressures_, kRestingScans)) <= kRestLevel;
+    // Where the chamber never comes to 0, the scans at its lowest pressure are many and agree too well.
+    const double least = quantile(pressures_, kRareScans);
+    const double rest = std::max(kRestLevel, least + kLeastReading * (range - least));
     std::vector<double> pressures, counts;
     for (const std::size_t i : scans) {
-      if (!sound[i] || course.pressure[i] <= kRestLevel) continue;
+      if (!sound[i] || course.pressure[i] <= rest) continue;
       pressures.push_back(std::abs(inPressure(i)));
       counts.push_back(std::abs(inReading(i)));
     }
