@@ -82,22 +82,29 @@ def ask(rig, service):
 def mistake(rig, board, calibration, folder, logs, protocols, cycles, limit):
     """Asks the sheet, which lies on TRUE, with the wrong file and the true one, uses its estimate, and records a loading. Leaves a
     bag for each use in the folder. Returns the answers: check, check_true, estimate."""
-    from fsr_pressure_map.msg import SurfaceCurvature
+    from fsr_pressure_map.msg import PressureMap, SurfaceCurvature
     answers, surfaces = {}, {}
 
-    def published(right):
-        return latest(rig, "curvature", SurfaceCurvature, right)
+    def published(name):
+        return latest(rig, "curvature", SurfaceCurvature, lambda message: message.surface == name)
+
+    def declared(name):
+        """The surface, once maps are made with one: the calibration node receives it by another way than this script."""
+        surface = published(name)
+        latest(rig, "pressure_map", PressureMap,
+               lambda message: message.state != PressureMap.STATE_CURVATURE_UNKNOWN and message.header.stamp > surface.header.stamp)
+        return surface
 
     with calibrated(rig, board, calibration, logs / "shape_wrong.log", f"surface:={WRONG}", f"mount:={MOUNT}"):
+        surfaces["wrong"] = declared(WRONG)
         answers["check"] = ask(rig, "check_surface")
-        surfaces["wrong"] = published(lambda message: message.surface == WRONG)
         rig.call_curvature(TRUE, MOUNT)
-        surfaces["true"] = published(lambda message: message.surface == TRUE)
+        surfaces["true"] = declared(TRUE)
         answers["check_true"] = ask(rig, "check_surface")
     with calibrated(rig, board, calibration, logs / "shape_estimated.log", "curvature:=estimated"):
         answers["estimate"] = ask(rig, "estimate_surface")
         if answers["estimate"].given:
-            surfaces["estimated"] = published(lambda message: message.surface == "estimated")
+            surfaces["estimated"] = published("estimated")
         load = rig.record(folder / "load", "shape", MOUNT, protocols, cycles, limit, ["pressure_map"])
     for use, surface in surfaces.items():
         exchange(load, surface, folder / f"{use}.bag")

@@ -147,7 +147,7 @@ TEST(SimulationSettings, UnknownEffectsAndKeysAreRefusedByName) {
 
 TEST(SimulationSettings, ValuesOutOfRangeAreRefusedByName) {
   EXPECT_EQ(complaintAbout(withEffects("hysteresis: {loop_width: -0.1}")),
-            "my.yaml: effects.hysteresis.loop_width is -0.1, but must be a number, 0 to 0.5");
+            "my.yaml: effects.hysteresis.loop_width is -0.1, but must be a number, 0 to 0.5 of span");
   EXPECT_NE(complaintAbout("{simulation: a, matrix: {rows: 0}, effects: {static_curve: {}, converter: {}}}")
                 .find("matrix.rows is 0"),
             std::string::npos);

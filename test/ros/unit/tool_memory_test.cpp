@@ -102,7 +102,7 @@ Tool exportTo(const std::string& format) {
     const auto tool = [](int argc, const char* const* argv, std::ostream& out) {
       return exportTool(argc, argv, out);
     };
-    return runTool(tool, {"export", bag, "--to", format, "--output", folder + "/out"});
+    return runTool(tool, {"export", bag, "--to", format, "--output", folder + "/" + format});
   };
 }
 
