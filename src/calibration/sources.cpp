@@ -62,9 +62,10 @@ std::vector<std::uint8_t> unionOfMasks(const std::vector<dataset::Recording>& re
 std::vector<std::string> warningsOf(const std::vector<dataset::Recording>& recordings,
                                     const std::vector<dataset::Sections>& sections) {
   std::vector<std::string> warnings;
+  const std::vector<dataset::MountRemark> differing = dataset::remarksOnDifferingMounts(recordings);
   // First, because a summary prints the first ones only.
-  for (const dataset::MountRemark& remark : dataset::remarksOnDifferingMounts(recordings)) {
-    warnings.push_back(remark.sentence);
+  for (const dataset::MountRemark& remark : differing) {
+    if (remark.certain()) warnings.push_back(remark.sentence);
   }
   for (std::size_t r = 0; r < recordings.size(); ++r) {
     for (const std::string& warning : recordings[r].warnings) {
@@ -74,6 +75,9 @@ std::vector<std::string> warningsOf(const std::vector<dataset::Recording>& recor
   }
   for (const dataset::MountRemark& remark : dataset::remarksOnMounts(recordings)) {
     warnings.push_back(remark.sentence);
+  }
+  for (const dataset::MountRemark& remark : differing) {
+    if (!remark.certain()) warnings.push_back(remark.sentence);
   }
   return warnings;
 }

@@ -21,7 +21,7 @@ namespace fsr::dataset {
 
 namespace {
 
-constexpr double kByChance = 0.05;  // of recordings without any mistake that get a remark
+constexpr double kMayBeChance = 0.5;  // what is less likely than not without a mistake is told
 constexpr double kNoLevel = std::numeric_limits<double>::quiet_NaN();
 // The lowest bin is left out: near rest the reading hardly depends on the pressure.
 constexpr std::size_t kBins = statistics::kPressureBins - 1;
@@ -241,10 +241,10 @@ struct StandsOut {
   ComparedMount* mount = nullptr;
   double distance = 0;  // from the mean of the other mounts of its surface [Pa]
   double usual = 0;     // root mean square of this distance, by the scatter of all other mounts [Pa]
+  double by_chance = 1;  // share of recordings without any mistake
 };
 
-// The mount that differs most; `mount` is null where chance explains it, or where it is less than `least`
-// [Pa].
+// The mount that differs most; `mount` is null where chance explains it, or where it is less than `least` [Pa].
 StandsOut mostDifferent(const std::vector<MountGroup>& groups, double least) {
   double all = 0, freedom = -1, compared = 0;  // the mount itself takes one degree of freedom
   for (const MountGroup& group : groups) {
@@ -266,7 +266,8 @@ StandsOut mostDifferent(const std::vector<MountGroup>& groups, double least) {
     }
   }
   const double p = 2 * boost::math::cdf(boost::math::students_t(freedom), -std::sqrt(highest));
-  if (!(p * compared < kByChance)) most.mount = nullptr;
+  most.by_chance = p * compared;
+  if (!(most.by_chance < kMayBeChance)) most.mount = nullptr;
   return most;
 }
 
@@ -278,17 +279,21 @@ MountRemark remarkOn(const StandsOut& found, const std::vector<Recording>& recor
   const auto nameOf = [&](const ComparedMount& mount) {
     return "mount " + std::to_string(mount.number) + " (" + recordings[mount.recording].name + ")";
   };
-  const std::string usual = ", mounts of one surface usually by " + distanceText(found.usual);
   const std::vector<ComparedMount*>& all = found.group->mounts;
+  std::string usual = ", mounts of one surface usually by " + distanceText(found.usual);
+  if (found.by_chance >= kCertain)
+    usual += " (by chance in " + settings::fixedText(100 * found.by_chance, 0) + " % of such sessions)";
   if (all.size() == 2)
-    return {all[1]->recording, all[0]->surface + ": " + nameOf(*all[0]) + " and " + nameOf(*all[1]) +
-                                   " differ by " + distanceText(found.distance) + usual +
-                                   "; two mounts, either may be wrong: see whether both lay on the surface "
-                                   "that was declared"};
-  return {found.mount->recording, found.mount->surface + ": " + nameOf(*found.mount) + " differs by " +
-                                      distanceText(found.distance) + " from the other " +
-                                      std::to_string(all.size() - 1) + " mounts of this surface" + usual +
-                                      ": see whether it lay on the surface that was declared"};
+    return {all[1]->recording,
+            all[0]->surface + ": " + nameOf(*all[0]) + " and " + nameOf(*all[1]) + " differ by " +
+                distanceText(found.distance) + usual +
+                "; two mounts, either may be wrong: see whether both lay on the surface that was declared",
+            found.by_chance};
+  return {found.mount->recording,
+          found.mount->surface + ": " + nameOf(*found.mount) + " differs by " +
+              distanceText(found.distance) + " from the other " + std::to_string(all.size() - 1) +
+              " mounts of this surface" + usual + ": see whether it lay on the surface that was declared",
+          found.by_chance};
 }
 
 }  // namespace
@@ -306,6 +311,7 @@ std::vector<MountRemark> remarksOnDifferingMounts(const std::vector<Recording>& 
     const StandsOut found = mostDifferent(groups, half_loop);
     if (found.mount == nullptr) return remarks;
     remarks.push_back(remarkOn(found, recordings));
+    if (!remarks.back().certain()) return remarks;
     for (ComparedMount* const mount : found.group->mounts) {
       if (mount == found.mount || found.group->mounts.size() == 2) mount->in_doubt = true;
     }

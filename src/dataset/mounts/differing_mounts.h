@@ -15,10 +15,10 @@ namespace fsr::dataset {
 /// equal readings (median of the taxels). Dwells do not count; loading and unloading count the same. Its
 /// square is compared with the scatter of all other mounts around the means of their surfaces, as
 /// conductor::SurfaceWatch does: an F test with one degree of freedom, which is the widest scatter that bins
-/// and taxels can have together. All mounts share a chance of 1 in 20 of a false remark (Bonferroni). A mount
-/// that stands out is left out, and the rest is tested again. Distances below half of the sheet's loop
-/// (root mean square of half of unloading minus loading) are left out: they add less to the error than the
-/// loop does.
+/// and taxels can have together; its p is corrected for the number of mounts (Bonferroni). Up to 1 in 20 the
+/// mount stands out: it is left out, and the rest is tested again. Up to 1 in 2, the sentence says that it may
+/// be chance. Distances below half of the sheet's loop (root mean square of half of unloading minus loading)
+/// are left out: they add less to the error than the loop does.
 ///
 /// No remark where the scatter is unknown (no other surface was mounted twice), without a chamber, and of
 /// surfaces without name or mounts without number. Recordings of different matrices are not compared.

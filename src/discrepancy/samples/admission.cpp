@@ -138,7 +138,7 @@ Admission inspectRecordings(std::vector<dataset::Recording> recordings, const Ad
     admission.recordings.push_back(looked);
   }
   for (const dataset::MountRemark& remark : dataset::remarksOnDifferingMounts(recordings)) {
-    admission.mounts.push_back(remark.sentence);
+    (remark.certain() ? admission.mounts : admission.remarks).push_back(remark.sentence);
   }
   admission.training = trainingRefusal(recordings, options);
   if (admission.training.empty())

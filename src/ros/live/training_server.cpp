@@ -128,6 +128,7 @@ TrainingServer::TrainingServer(const ros::NodeHandle& handle, const ros::NodeHan
   subscribe<fsr_pressure_map::SurfaceCurvature>("curvature");
   subscribe<sensor_msgs::Temperature>("temperature");
   subscribe<fsr_pressure_map::MatrixInfo>("matrix_info");
+  subscribe<fsr_pressure_map::Event>("events");
   timer_ = handle_.createWallTimer(ros::WallDuration(kReportPeriod),
                                    [this](const ros::WallTimerEvent&) { publishGathered(); });
   publishGathered();
