@@ -254,6 +254,15 @@ class LaunchFilesTest(unittest.TestCase):
         self.assertEqual(said.count("tries again each second"), 3, said)
         self.assertNotIn("has died", said)
 
+    def test_a_nodelet_waits_for_a_right_setting(self):
+        rig = self.start("calibrated", self.lab(serial_port=self.port, rows=900), "nodelets:=true", "surface:=flat")
+        self.wait_for(lambda: "(/fsr/driver tries again each second)" in rig.said(), rig)
+        self.lab(serial_port=self.port)
+        self.wait_for(lambda: "there is no serial port" in rig.said(), rig)
+        said = rig.end()
+        self.assertNotIn("has died", said)
+        self.assertEqual(said.count("/fsr/driver tries again each second"), 1, said)
+
     def test_a_recording_that_would_be_useless_is_refused(self):
         for arguments, sentence in [
                 (["wait:=1"], "no scan has come on /fsr/raw"),
