@@ -6,10 +6,10 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "ros/bags/resource_path.h"
 #include "ros/bags/surface_folder.h"
-#include "session_plan/plan_file.h"
-#include "session_plan/plan_report.h"
-#include "session_plan/propose.h"
-#include "session_plan/steps.h"
+#include "session/plan_file.h"
+#include "session/plan_report.h"
+#include "session/plan_steps.h"
+#include "session/propose.h"
 #include "settings/command_line.h"
 #include "settings/file_kind.h"
 #include "settings/number_text.h"
@@ -19,7 +19,7 @@ namespace fsr_ros {
 
 namespace {
 
-namespace plans = fsr::session_plan;
+namespace plans = fsr::session;
 using fsr::settings::InputError;
 
 constexpr char kSurfaces[] = "flat,cylinder_5cm,cylinder_7cm,cylinder_9cm,cylinder_11cm,cylinder_13cm";
