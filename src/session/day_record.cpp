@@ -3,9 +3,7 @@
 #include <filesystem>
 
 #include "session/coverage.h"
-#include "session/losses.h"
 #include "session/plan_report.h"
-#include "session/prospects.h"
 #include "session/session_files.h"
 
 namespace fsr::session {
@@ -55,7 +53,7 @@ DayReport dayRecord(const SessionPlan& plan, const ConductorState& state, const 
     day.mounts.back().steps.push_back(std::move(steps[s]));
   }
   day.coverage = coverageSvg(coverageOf(plan, session.steps(), state.steps));
-  day.plan_limits = limitsOf(prospectsOf(plan));
+  day.plan_limits = limitsOf(plan);
   return day;
 }
 

@@ -13,10 +13,17 @@ std::string timeText(double seconds);
 /// One line: name, duration, mounts, surfaces.
 std::string headline(const SessionPlan& plan);
 
-/// What is needed, how long it takes, what the recordings can and cannot tell, and what each cut costs.
+/// What is needed, how long it takes, and what the recordings can and cannot tell, as far as the plan
+/// decides. How well they tell it depends on the sheet.
 std::string planReport(const SessionPlan& plan);
 
-/// What `plan` lacks beside a longer one, as sentences; empty = nothing.
+/// Ids of the effects that `discrepancy` could name alone.
+std::vector<std::string> effectsToldBy(const SessionPlan& plan);
+
+/// Sentences on what recordings of the plan cannot tell.
+std::vector<std::string> limitsOf(const SessionPlan& plan);
+
+/// What `plan` cannot tell, or less well, but `whole` can; empty = nothing.
 std::vector<std::string> lacksBeside(const SessionPlan& whole, const SessionPlan& plan);
 
 /// A line for each step: time since the begin, mount, instruction.

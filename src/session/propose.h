@@ -26,10 +26,9 @@ struct ProposedPlan {
   SessionPlan whole;  ///< the plan for this purpose and these surfaces without a limit of time
 };
 
-/// Makes a plan for a purpose. Where the whole plan takes too long it is cut in an order that depends on the
-/// purpose, what matters least first. What still fits then is taken back, what matters most first.
-/// Throws InputError where not even one cycle fits, and where the conditioning would pass the chamber's
-/// limit. Messages name the options of the tool plan_session.
+/// Makes a plan for a purpose: of the sizes in its table (propose.cpp) the first that fits the time. Throws
+/// InputError where not even one cycle fits, and where the conditioning would pass the chamber's limit.
+/// Messages name the options of the tool plan_session.
 ProposedPlan proposePlan(const PlanRequest& request);
 
 }  // namespace fsr::session

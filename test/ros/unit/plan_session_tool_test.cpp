@@ -46,8 +46,8 @@ TEST_F(PlanSessionTool, WritesAPlanThatFitsTheTimeAndSaysWhatTheWholeOneTakes) {
   const auto plan = fsr::session::readPlanFile(output());
   EXPECT_LE(fsr::session::sessionDuration(plan), 90 * 60);
   EXPECT_EQ(plan.name, "day");
-  for (const char* part : {"Needed:", "They cannot tell:", "What a cut costs:",
-                           "The whole plan for discrepancy takes", "written: "})
+  for (const char* part :
+       {"Needed:", "They cannot tell:", "The whole plan for discrepancy takes", "written: "})
     EXPECT_TRUE(contains(printed, part)) << part << "\n" << printed;
 }
 
