@@ -11,7 +11,7 @@ namespace fsr::dataset {
 
 /// Conditioning is four or five loadings of the sheet to 110 % of the largest pressure that is then measured,
 /// before the first measurement (Tekscan, FlexiForce Sensors User Manual, "Conditioning"). It is recognised
-/// with the limits of a plan's cycles: see session_plan::Conditioning and session_plan::Tolerance.
+/// with the limits of a plan's cycles: see session::Conditioning and session::Tolerance.
 struct ConditioningOptions {
   double share_of_peak = 1.1;  ///< of the largest peak that follows (ratio)
   double tolerance = 0.05;     ///< by which a peak may differ from that, as a share of itself (ratio)

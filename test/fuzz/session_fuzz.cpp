@@ -4,12 +4,12 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "fuzz/fuzz_file.h"
-#include "session_plan/plan_file.h"
-#include "session_plan/steps.h"
+#include "session/plan_file.h"
+#include "session/plan_steps.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   const fuzz::MemoryFile file(bytes, size);
-  namespace plans = fsr::session_plan;
+  namespace plans = fsr::session;
   try {
     const plans::SessionPlan plan = plans::readPlanFile(file.path());
     double end = 0;

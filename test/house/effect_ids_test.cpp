@@ -30,7 +30,7 @@ const std::set<std::pair<std::string, std::string>> kOtherMeanings = {
     {"temperature", "src/dataset/table_columns.cpp"},
     {"temperature", "src/exports/scan_table.cpp"},
     {"temperature", "src/report/calibration_json.cpp"},
-    {"temperature", "src/report/day/day_advice.cpp"},
+    {"temperature", "src/session/day_advice.cpp"},
     {"temperature", "src/simulation/chamber.cpp"},
     {"temperature", "src/simulation/effect_info.cpp"},
 };

@@ -14,7 +14,7 @@ namespace fsr::dataset {
 /// A mount's distance is the root mean square, over the pressure bins, of the pressure by which it differs at
 /// equal readings (median of the taxels). Dwells do not count; loading and unloading count the same. Its
 /// square is compared with the scatter of all other mounts around the means of their surfaces, as
-/// conductor::SurfaceWatch does: an F test with one degree of freedom, which is the widest scatter that bins
+/// session::SurfaceWatch does: an F test with one degree of freedom, which is the widest scatter that bins
 /// and taxels can have together; its p is corrected for the number of mounts (Bonferroni). Up to 1 in 20 the
 /// mount stands out: it is left out, and the rest is tested again. Up to 1 in 2, the sentence says that it may
 /// be chance. Distances below half of the sheet's loop (root mean square of half of unloading minus loading)

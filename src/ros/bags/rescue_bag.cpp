@@ -20,10 +20,10 @@
 #include <utility>
 #include <vector>
 
-#include "conductor/session_files.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "ros/bags/bag_records.h"
 #include "ros/bags/bag_walk.h"
+#include "session/session_files.h"
 #include "settings/regular_file.h"
 #include "settings/replace_file.h"
 
@@ -366,7 +366,7 @@ std::string giveClosedName(const std::string& active) {
 
 RescuedSession rescueSession(const std::string& folder, const std::string& plan) {
   RescuedSession session;
-  for (const std::string& file : fsr::conductor::openBags(folder, plan)) {
+  for (const std::string& file : fsr::session::openBags(folder, plan)) {
     try {
       const RescuedBag bag = rescueBag((std::filesystem::path(folder) / file).string());
       if (!bag.complaint.empty()) {

@@ -8,9 +8,6 @@
 #include <filesystem>
 #include <utility>
 
-#include "conductor/coverage.h"
-#include "conductor/session_files.h"
-#include "conductor/state_file.h"
 #include "dataset/conditioning.h"
 #include "dataset/recording_builder.h"
 #include "ros/bags/rescue_bag.h"
@@ -18,16 +15,18 @@
 #include "ros/bags/surface_folder.h"
 #include "ros/messages/image_message.h"
 #include "ros/messages/surface_message.h"
-#include "session_plan/plan_file.h"
+#include "session/coverage.h"
+#include "session/plan_file.h"
+#include "session/session_files.h"
 #include "settings/number_text.h"
 #include "settings/replace_file.h"
 
 namespace fsr_ros {
 
 namespace fs = std::filesystem;
-using fsr::conductor::Outcome;
-using fsr::conductor::StepState;
-using fsr::session_plan::StepKind;
+using fsr::session::Outcome;
+using fsr::session::StepKind;
+using fsr::session::StepState;
 
 namespace {
 
@@ -49,7 +48,7 @@ std::string withoutNumbers(std::string text) {
   return text;
 }
 
-std::string measuredText(const fsr::conductor::Measured& measured) {
+std::string measuredText(const fsr::session::Measured& measured) {
   std::string text;
   const auto add = [&text](const char* name, double value, double unit, const char* unit_name) {
     if (value == value)
@@ -91,40 +90,40 @@ ConductServer::ConductServer(const ros::NodeHandle& handle, const ros::NodeHandl
 void ConductServer::start(const Parameters& parameters) {
   const std::string path = resolveLaunchPath(parameters.text("plan", ""));
   if (path.empty()) throw parameters.error("plan", "must be the path of a plan; plan_session writes one");
-  plan_ = fsr::session_plan::readPlanFile(path, resolveLaunchPath(parameters.text("surfaces", "")));
+  plan_ = fsr::session::readPlanFile(path, resolveLaunchPath(parameters.text("surfaces", "")));
   folder_ = resolveLaunchPath(parameters.text("folder", "session"));
   frame_id_ = parameters.text("frame_id", "fsr_matrix");
   minutes_ = parameters.number("minutes", 0, {0, 1e5, "min"});
-  fsr::conductor::ConductorOptions options;
+  fsr::session::ConductorOptions options;
   reserve_ =
       1e6 * Parameters(ros::NodeHandle(private_handle_, "recorder")).number("min_space", 200, {0, 1e9, "MB"});
   options.silence = parameters.number("silence", options.silence, {0.1, 1e4, "s"});
   std::error_code failed;
   fs::create_directories(folder_, failed);
   if (!fs::is_directory(folder_)) throw parameters.error("folder", "is no folder and cannot be made");
-  lock_ = std::make_unique<fsr::conductor::FolderLock>(folder_);
+  lock_ = std::make_unique<fsr::session::FolderLock>(folder_);
   const RescuedSession rescued = rescueSession(folder_, plan_.name);
   for (const std::string& sentence : rescued.closed) ROS_WARN_STREAM(sentence);
   for (const std::string& sentence : rescued.open) ROS_ERROR_STREAM(sentence);
-  state_file_ = (fs::path(folder_) / fsr::conductor::stateFileName(plan_.name)).string();
+  state_file_ = (fs::path(folder_) / fsr::session::stateFileName(plan_.name)).string();
   if (fs::exists(state_file_)) {
     conductor_ =
-        std::make_unique<fsr::conductor::Conductor>(plan_, fsr::conductor::readState(state_file_), options);
+        std::make_unique<fsr::session::Conductor>(plan_, fsr::session::readState(state_file_), options);
     ROS_INFO_STREAM("the session of " << state_file_ << " goes on; remove that file to begin anew");
   } else {
-    conductor_ = std::make_unique<fsr::conductor::Conductor>(plan_, options);
+    conductor_ = std::make_unique<fsr::session::Conductor>(plan_, options);
   }
   // So that the folder tells by itself what was planned.
-  fsr::settings::replaceFile((fs::path(folder_) / fsr::conductor::planFileName(plan_.name)).string(),
+  fsr::settings::replaceFile((fs::path(folder_) / fsr::session::planFileName(plan_.name)).string(),
                              planText(plan_, {"The plan of this session."}));
   if (parameters.flag("report", true)) reporter_ = std::make_unique<DayReporter>(folder_, plan_.name);
 }
 
-void ConductServer::advertiseAnswers(const std::function<fsr::conductor::Answer()>& action,
+void ConductServer::advertiseAnswers(const std::function<fsr::session::Answer()>& action,
                                      const std::string& name) {
   services_.push_back(private_handle_.advertiseService<Request, Response>(
       name, [this, action, name](Request&, Response& response) {
-        const fsr::conductor::Answer answer = action();
+        const fsr::session::Answer answer = action();
         response.success = answer.done;
         response.message = answer.sentence;
         ROS_INFO_STREAM(name << ": " << answer.sentence);
@@ -167,7 +166,7 @@ void ConductServer::onScan(const fsr_pressure_map::MatrixFrameConstPtr& message)
   if (!same)
     taxels_ = std::make_unique<fsr::health::TaxelWatch>(fsr::matrix::MatrixSize{frame.rows, frame.columns},
                                                         frame.full_scale);
-  fsr::conductor::ScanSummary scan;
+  fsr::session::ScanSummary scan;
   scan.time = frame.header.stamp.toSec();
   scan.taxels = static_cast<unsigned>(taxels);
   if (same && frame.sequence > last_frame_->sequence + 1)
@@ -222,8 +221,8 @@ void ConductServer::onTimer() {
 }
 
 // With what there is to say about the report.
-fsr::conductor::Instruction ConductServer::instructionNow() const {
-  fsr::conductor::Instruction now = conductor_->instruction();
+fsr::session::Instruction ConductServer::instructionNow() const {
+  fsr::session::Instruction now = conductor_->instruction();
   if (reporter_ && conductor_->done()) now.remark = reporter_->sentence();
   if (!save_trouble_.empty()) now.remark += (now.remark.empty() ? "" : "; ") + save_trouble_;
   return now;
@@ -250,7 +249,7 @@ void ConductServer::follow() {
 }
 
 void ConductServer::report(const Outcome& outcome) {
-  const fsr::session_plan::SessionStep& step = conductor_->steps()[outcome.step];
+  const fsr::session::SessionStep& step = conductor_->steps()[outcome.step];
   const std::string mount = "mount " + std::to_string(step.mount);
   const std::string what = step.kind == StepKind::kMount
                                ? mount + " on " + step.surface
@@ -284,7 +283,7 @@ void ConductServer::tellConditioning(unsigned mount) {
   if (!recorder_ || conditioning_told_) return;
   std::size_t accepted = 0;
   for (std::size_t i = 0; i < conductor_->steps().size(); ++i) {
-    const fsr::session_plan::SessionStep& step = conductor_->steps()[i];
+    const fsr::session::SessionStep& step = conductor_->steps()[i];
     if (step.kind != StepKind::kCondition || step.mount != mount) continue;
     if (conductor_->states()[i] != StepState::kAccepted) return;
     ++accepted;
@@ -315,7 +314,7 @@ void ConductServer::save() {
 
 // Publishes and logs the instruction where it has changed.
 void ConductServer::say() {
-  const fsr::conductor::Instruction now = instructionNow();
+  const fsr::session::Instruction now = instructionNow();
   if (now.text == said_text_ && now.remark == said_remark_) return;
   if (now.text != said_text_) ROS_INFO_STREAM("[" << now.step << " of " << now.steps << "] " << now.text);
   // Told by report(), or by the reporter.
@@ -327,7 +326,7 @@ void ConductServer::say() {
   publishInstruction(now);
 }
 
-void ConductServer::publishInstruction(const fsr::conductor::Instruction& now) {
+void ConductServer::publishInstruction(const fsr::session::Instruction& now) {
   fsr_pressure_map::Instruction message;
   message.header.stamp = ros::Time::now();
   message.plan = now.plan;
@@ -351,7 +350,7 @@ void ConductServer::publishInstruction(const fsr::conductor::Instruction& now) {
 }
 
 void ConductServer::publishCoverage() {
-  const fsr::conductor::Instruction now = conductor_->instruction();
+  const fsr::session::Instruction now = conductor_->instruction();
   const auto coverage = coverageOf(plan_, conductor_->steps(), conductor_->states());
   const std::string left = fsr::settings::fixedText(conductor_->timeLeft() / 60, 0);
   std_msgs::Header header;
@@ -363,9 +362,9 @@ void ConductServer::publishCoverage() {
 
 // The surface under the sheet, once a person has confirmed it.
 void ConductServer::publishSurface() {
-  const fsr::session_plan::SessionStep* step = conductor_->step();
+  const fsr::session::SessionStep* step = conductor_->step();
   if (step == nullptr || conductor_->instruction().confirm || step->kind == StepKind::kBreak) return;
-  for (const fsr::session_plan::PlannedSurface& one : plan_.surfaces) {
+  for (const fsr::session::PlannedSurface& one : plan_.surfaces) {
     if (one.surface.name != step->surface) continue;
     fsr::matrix::Surface surface = one.surface;
     surface.mount = step->mount;
@@ -388,10 +387,10 @@ void ConductServer::publishCommand(double time) {
 // ---- bags --------------------------------------------------------------------------------------------
 
 // The bags of a mount that begins again do not count.
-void ConductServer::setAside(const fsr::session_plan::SessionStep& step) {
+void ConductServer::setAside(const fsr::session::SessionStep& step) {
   endRecording();
-  const std::string stem = fsr::conductor::bagStem(plan_.name, step.mount, step.surface);
-  for (const fsr::conductor::MovedBag& bag : fsr::conductor::setMountAside(folder_, stem)) {
+  const std::string stem = fsr::session::bagStem(plan_.name, step.mount, step.surface);
+  for (const fsr::session::MovedBag& bag : fsr::session::setMountAside(folder_, stem)) {
     if (bag.failure.empty())
       ROS_WARN_STREAM(bag.from << " does not count any more; it is kept as " << bag.to);
     else
@@ -452,9 +451,9 @@ void ConductServer::startRecording() {
     recorder_retry_ = ros::SteadyTime::now() + ros::WallDuration(kRetry);
     return conductor_->recordingTrouble(hindered);
   }
-  const fsr::session_plan::SessionStep& step = *conductor_->step();
+  const fsr::session::SessionStep& step = *conductor_->step();
   const std::string bag =
-      fsr::conductor::freeBagName(folder_, fsr::conductor::bagStem(plan_.name, step.mount, step.surface));
+      fsr::session::freeBagName(folder_, fsr::session::bagStem(plan_.name, step.mount, step.surface));
   const ros::NodeHandle recorder(private_handle_, "recorder");
   recorder.setParam("bag", bag);
   try {

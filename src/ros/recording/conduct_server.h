@@ -15,16 +15,16 @@
 #include <optional>
 #include <string>
 
-#include "conductor/chamber_command.h"
-#include "conductor/conductor.h"
-#include "conductor/folder_lock.h"
 #include "fsr_pressure_map/health/taxel_watch.h"
 #include "ros/recording/day_reporter.h"
 #include "ros/recording/recorder.h"
+#include "session/chamber_command.h"
+#include "session/conductor.h"
+#include "session/session_files.h"
 
 namespace fsr_ros {
 
-/// Leads a person through the plan of a session (conductor::Conductor). Publishes `instruction` and
+/// Leads a person through the plan of a session (session::Conductor). Publishes `instruction` and
 /// `session_coverage`, both latched, the surface of the plan on `curvature` and what happens on `events`.
 /// Records one bag for each mount. The services `~confirm`, `~accept`, `~reject` and `~skip` are a person's
 /// answers. The state is kept in a file in the folder of the bags, so that a session goes on after a crash or
@@ -51,15 +51,15 @@ class ConductServer {
   void onInfo(const fsr_pressure_map::MatrixInfoConstPtr& message);
   void onCurvature(const fsr_pressure_map::SurfaceCurvatureConstPtr& message);
   void onTimer();
-  void advertiseAnswers(const std::function<fsr::conductor::Answer()>& action, const std::string& name);
+  void advertiseAnswers(const std::function<fsr::session::Answer()>& action, const std::string& name);
   void start(const Parameters& parameters);
   void noteTime(double stamp);
   void follow();
-  void report(const fsr::conductor::Outcome& outcome);
+  void report(const fsr::session::Outcome& outcome);
   void tellConditioning(unsigned mount);
   void save();
   void say();
-  void publishInstruction(const fsr::conductor::Instruction& now);
+  void publishInstruction(const fsr::session::Instruction& now);
   void publishCoverage();
   void publishSurface();
   void publishCommand(double time);
@@ -70,19 +70,19 @@ class ConductServer {
   std::string whyNoRecording() const;
   void checkFolder();
   void checkDisk();
-  void setAside(const fsr::session_plan::SessionStep& step);
-  fsr::conductor::Instruction instructionNow() const;
+  void setAside(const fsr::session::SessionStep& step);
+  fsr::session::Instruction instructionNow() const;
 
   ros::NodeHandle handle_, private_handle_;
-  fsr::session_plan::SessionPlan plan_;
+  fsr::session::SessionPlan plan_;
   std::string folder_, state_file_, frame_id_;
   double minutes_ = 0;
-  std::unique_ptr<fsr::conductor::Conductor> conductor_;
+  std::unique_ptr<fsr::session::Conductor> conductor_;
   std::unique_ptr<fsr::health::TaxelWatch> taxels_;
   fsr_pressure_map::MatrixInfoConstPtr info_;
   std::optional<fsr_pressure_map::MatrixFrame> last_frame_;  // without its counts
 
-  std::unique_ptr<fsr::conductor::FolderLock> lock_;
+  std::unique_ptr<fsr::session::FolderLock> lock_;
   std::unique_ptr<DayReporter> reporter_;  // null: no report is wanted
   std::unique_ptr<Recorder> recorder_;
   unsigned recorded_mount_ = 0;
@@ -103,7 +103,7 @@ class ConductServer {
   unsigned ticks_ = 0;
   double reserve_ = 0;  // space that stays free on the disk [bytes]
 
-  fsr::conductor::ChamberCommand command_course_;
+  fsr::session::ChamberCommand command_course_;
   ros::Publisher instruction_, coverage_, curvature_, events_;
   ros::Publisher command_;  // none unless ~command
   std::vector<ros::Subscriber> subscribers_;

@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <utility>
 
-#include "conductor/session_files.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "ros/programs/sibling_program.h"
+#include "session/session_files.h"
 
 namespace fsr_ros {
 
@@ -16,8 +16,8 @@ namespace fs = std::filesystem;
 
 DayReporter::DayReporter(std::string folder, const std::string& plan)
     : folder_(fs::absolute(folder).lexically_normal().string()) {
-  const fs::path results = fs::path(folder_) / fsr::conductor::resultsFolderName(plan);
-  report_ = (fs::path(folder_) / fsr::conductor::reportFileName(plan)).string();
+  const fs::path results = fs::path(folder_) / fsr::session::resultsFolderName(plan);
+  report_ = (fs::path(folder_) / fsr::session::reportFileName(plan)).string();
   output_ = (results / "day_report.txt").string();
   log_ = (results / "day_report.log").string();
 }

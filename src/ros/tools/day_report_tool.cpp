@@ -4,14 +4,13 @@
 #include <fstream>
 #include <iterator>
 
-#include "conductor/day_record.h"
-#include "conductor/session_files.h"
-#include "conductor/state_file.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "ros/bags/rescue_bag.h"
 #include "ros/programs/sibling_program.h"
 #include "ros/tools/tool_progress.h"
-#include "session_plan/plan_file.h"
+#include "session/day_report.h"
+#include "session/plan_file.h"
+#include "session/session_files.h"
 #include "settings/command_line.h"
 #include "settings/file_kind.h"
 #include "settings/replace_file.h"
@@ -21,8 +20,8 @@ namespace fsr_ros {
 namespace {
 
 namespace fs = std::filesystem;
-using fsr::report::DayPart;
-using fsr::report::DayReport;
+using fsr::session::DayPart;
+using fsr::session::DayReport;
 using fsr::settings::InputError;
 using Words = std::vector<std::string>;
 
@@ -108,7 +107,7 @@ class Parts {
 
 Words bagsOf(const DayReport& day) {
   Words bags;
-  for (const fsr::report::DayMount& mount : day.mounts)
+  for (const fsr::session::DayMount& mount : day.mounts)
     bags.insert(bags.end(), mount.bags.begin(), mount.bags.end());
   return bags;
 }
@@ -119,7 +118,7 @@ Words operator+(Words words, const Words& more) {
 }
 
 void runTools(const fsr::settings::CommandLine& line, const std::string& folder, DayReport& day) {
-  const Parts parts(folder, fsr::conductor::resultsFolderName(day.plan));
+  const Parts parts(folder, fsr::session::resultsFolderName(day.plan));
   const Words bags = bagsOf(day);
   if (bags.empty()) {
     day.check.refused = day.training.refused = day.discrepancy.refused =
@@ -143,18 +142,18 @@ void runTools(const fsr::settings::CommandLine& line, const std::string& folder,
 DayReport recordOf(const fsr::settings::CommandLine& line, const std::string& folder) {
   std::string plan_name;
   if (line.has("plan"))
-    plan_name = fsr::session_plan::readPlanFile(line.text("plan", ""), line.text("surfaces", "")).name;
-  const fs::path state_file = fs::path(folder) / fsr::conductor::stateFileIn(folder, plan_name);
-  const fsr::conductor::ConductorState state = fsr::conductor::readState(state_file.string());
-  const fs::path beside = fs::path(folder) / fsr::conductor::planFileName(state.plan);
+    plan_name = fsr::session::readPlanFile(line.text("plan", ""), line.text("surfaces", "")).name;
+  const fs::path state_file = fs::path(folder) / fsr::session::stateFileIn(folder, plan_name);
+  const fsr::session::ConductorState state = fsr::session::readState(state_file.string());
+  const fs::path beside = fs::path(folder) / fsr::session::planFileName(state.plan);
   const std::string plan_file = line.text("plan", beside.string());
   if (!fs::exists(plan_file))
     throw InputError(
         plan_file +
         ": is missing, so that the steps of the session are not known; give its plan with --plan");
-  const auto plan = fsr::session_plan::readPlanFile(plan_file, line.text("surfaces", ""));
+  const auto plan = fsr::session::readPlanFile(plan_file, line.text("surfaces", ""));
   const RescuedSession rescued = rescueSession(folder, plan.name);
-  DayReport day = fsr::conductor::dayRecord(plan, state, folder);
+  DayReport day = fsr::session::dayRecord(plan, state, folder);
   day.closed_now = rescued.closed;
   day.not_closed = rescued.open;
   return day;
@@ -182,11 +181,11 @@ int dayReportTool(int argc, const char* const* argv, std::ostream& out) {
   checkOptions(line);
   const std::string folder = fs::absolute(line.files().front()).lexically_normal().string();
   DayReport day = recordOf(line, folder);
-  day.calibration = fsr::conductor::calibrationFileName(day.plan);
-  const std::string page = (fs::path(folder) / fsr::conductor::reportFileName(day.plan)).string();
+  day.calibration = fsr::session::calibrationFileName(day.plan);
+  const std::string page = (fs::path(folder) / fsr::session::reportFileName(day.plan)).string();
   fsr::settings::requireReplaceable(page, fsr::settings::file_kind::kPage);
   runTools(line, folder, day);
-  fsr::settings::replaceFile(page, fsr::report::dayHtml(day));
+  fsr::settings::replaceFile(page, fsr::session::dayHtml(day));
   for (const std::string& sentence : day.closed_now) out << sentence << '\n';
   for (const std::string& sentence : day.not_closed) out << "left out: " << sentence << '\n';
   bool complete = day.not_closed.empty();

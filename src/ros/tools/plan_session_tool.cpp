@@ -6,10 +6,10 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "ros/bags/resource_path.h"
 #include "ros/bags/surface_folder.h"
-#include "session_plan/plan_file.h"
-#include "session_plan/plan_report.h"
-#include "session_plan/propose.h"
-#include "session_plan/steps.h"
+#include "session/plan_file.h"
+#include "session/plan_report.h"
+#include "session/plan_steps.h"
+#include "session/propose.h"
 #include "settings/command_line.h"
 #include "settings/file_kind.h"
 #include "settings/number_text.h"
@@ -19,7 +19,7 @@ namespace fsr_ros {
 
 namespace {
 
-namespace plans = fsr::session_plan;
+namespace plans = fsr::session;
 using fsr::settings::InputError;
 
 constexpr char kSurfaces[] = "flat,cylinder_5cm,cylinder_7cm,cylinder_9cm,cylinder_11cm,cylinder_13cm";
@@ -28,8 +28,7 @@ fsr::settings::CommandLine options() {
   fsr::settings::CommandLine line(
       "plan_session", "--for NAME --minutes N --output PLAN.yaml, or PLAN.yaml [--steps]",
       "Writes a plan for a session at the rig, which fits the time, or describes one. It says what is "
-      "needed, how "
-      "long it takes, what the recordings can tell, and what each cut would cost.");
+      "needed, how long it takes, and what the recordings can and cannot tell.");
   line.option("for", "NAME", "discrepancy, history, per_curvature or field_check")
       .option("minutes", "N", "time that there is, changes of the surface included")
       .output("output", "FILE", "plan to write")
@@ -113,8 +112,9 @@ void propose(const fsr::settings::CommandLine& line, std::ostream& out) {
   if (cut > 0) {
     out << "\nThe whole plan for " << plans::name(request.purpose) << " takes "
         << plans::timeText(plans::sessionDuration(proposed.whole)) << ". What this one lacks beside it:\n";
-    for (const std::string& sentence : plans::lacksBeside(proposed.whole, proposed.plan))
-      out << "  - " << sentence << "\n";
+    const std::vector<std::string> lacks = plans::lacksBeside(proposed.whole, proposed.plan);
+    for (const std::string& sentence : lacks) out << "  - " << sentence << "\n";
+    if (lacks.empty()) out << "  - Nothing but data.\n";
   }
   out << "\nwritten: " << std::filesystem::absolute(output).lexically_normal().string() << "\n";
 }

@@ -13,8 +13,8 @@
 #include "ros/tools/bag_options.h"
 #include "ros/tools/figure_script.h"
 #include "ros/tools/recompute_gap_tool.h"
-#include "session_plan/plan_file.h"
-#include "session_plan/steps.h"
+#include "session/plan_file.h"
+#include "session/plan_steps.h"
 #include "settings/command_line.h"
 #include "settings/file_kind.h"
 #include "settings/progress.h"
@@ -73,7 +73,7 @@ fsr::settings::CommandLine options() {
 
 // The session of a plan instead of that of the simulation.
 void runPlan(const std::string& path, fsr::simulation::SimulationSettings& settings) {
-  settings.session = fsr::session_plan::simulatedStations(fsr::session_plan::readPlanFile(path));
+  settings.session = fsr::session::simulatedStations(fsr::session::readPlanFile(path));
   for (const fsr::simulation::Station& station : settings.session) {
     try {
       fsr::matrix::requireFit(station.surface, settings.layout.size);

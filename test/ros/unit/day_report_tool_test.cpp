@@ -10,12 +10,12 @@
 #include <iterator>
 #include <sstream>
 
-#include "conductor/conductor.h"
-#include "conductor/state_file.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "ros/bags/bag_writer.h"
 #include "ros/programs/sibling_program.h"
-#include "session_plan/plan_file.h"
+#include "session/conductor.h"
+#include "session/plan_file.h"
+#include "session/session_files.h"
 #include "support/mounted_day.h"
 #include "support/source_dir.h"
 
@@ -23,7 +23,7 @@ namespace fsr_ros {
 namespace {
 
 namespace fs = std::filesystem;
-using fsr::conductor::StepState;
+using fsr::session::StepState;
 
 constexpr char kPlan[] =
     "plan: day\nconditioning: {cycles: 0}\nrepeat_first: false\nsurfaces: [{surface: flat}]\n"
@@ -37,13 +37,13 @@ class DayReportTool : public testing::Test {
               ("day & <" + std::to_string(::getpid()) + "_" + std::string(test->name()) + ">");
     fs::remove_all(folder_);
     fs::create_directories(folder_);
-    const auto plan = fsr::session_plan::readPlan(fsr::settings::Settings::fromText(kPlan, "day.yaml"),
-                                                  test_support::sourceDir() + "/config/surfaces");
+    const auto plan = fsr::session::readPlan(fsr::settings::Settings::fromText(kPlan, "day.yaml"),
+                                             test_support::sourceDir() + "/config/surfaces");
     std::ofstream(path("day_plan.yaml")) << planText(plan);
-    fsr::conductor::ConductorState state = fsr::conductor::Conductor(plan).state();
+    fsr::session::ConductorState state = fsr::session::Conductor(plan).state();
     state.steps[0] = StepState::kAccepted;
     state.steps[1] = StepState::kSkipped;
-    fsr::conductor::writeState(path("day_session.yaml"), state);
+    fsr::session::writeState(path("day_session.yaml"), state);
   }
   void TearDown() override { fs::remove_all(folder_); }
 
@@ -99,7 +99,7 @@ TEST_F(DayReportTool, ABagThatNoToolReadsAppearsWithTheirSentences) {
 }
 
 TEST_F(DayReportTool, TheFirstAdviceNamesTheMountsThatDifferFromTheOthersOfTheirSurface) {
-  const auto plan = fsr::session_plan::readPlan(
+  const auto plan = fsr::session::readPlan(
       fsr::settings::Settings::fromText(
           "plan: day\norder: listed\nconditioning: {cycles: 0}\nrepeat_first: false\nsurfaces:\n"
           "  - {surface: cylinder_10cm, mounts: 2, cylinder: {radius: 0.10, axis: y}}\n"
@@ -110,7 +110,7 @@ TEST_F(DayReportTool, TheFirstAdviceNamesTheMountsThatDifferFromTheOthersOfTheir
           "day.yaml"),
       "");
   std::ofstream(path("day_plan.yaml")) << planText(plan);
-  fsr::conductor::writeState(path("day_session.yaml"), fsr::conductor::Conductor(plan).state());
+  fsr::session::writeState(path("day_session.yaml"), fsr::session::Conductor(plan).state());
   for (const fsr::dataset::Recording& mount : test_support::recorded({"bench", 2, true}))
     writeBag(path("day_0" + mount.name), mount);
   run({folder_.string()});

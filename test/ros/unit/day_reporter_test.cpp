@@ -8,9 +8,9 @@
 #include <fstream>
 #include <thread>
 
-#include "conductor/conductor.h"
-#include "conductor/state_file.h"
-#include "session_plan/plan_file.h"
+#include "session/conductor.h"
+#include "session/plan_file.h"
+#include "session/session_files.h"
 #include "support/source_dir.h"
 
 namespace fsr_ros {
@@ -33,14 +33,13 @@ class DayReporterTest : public testing::Test {
 
   // A session without bags, so that the report is quickly written.
   void session() const {
-    const auto plan = fsr::session_plan::readPlan(
+    const auto plan = fsr::session::readPlan(
         fsr::settings::Settings::fromText(
             "plan: day\nsurfaces: [{surface: flat}]\nprogram: [{cycles: {peak: 600000, cycles: 2}}]\n",
             "day.yaml"),
         test_support::sourceDir() + "/config/surfaces");
     std::ofstream(folder_ / "day_plan.yaml") << planText(plan);
-    fsr::conductor::writeState((folder_ / "day_session.yaml").string(),
-                               fsr::conductor::Conductor(plan).state());
+    fsr::session::writeState((folder_ / "day_session.yaml").string(), fsr::session::Conductor(plan).state());
   }
   std::string report() const { return (folder_ / "day_report.html").string(); }
 

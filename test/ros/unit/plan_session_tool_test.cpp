@@ -7,8 +7,8 @@
 #include <sstream>
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "session_plan/plan_file.h"
-#include "session_plan/steps.h"
+#include "session/plan_file.h"
+#include "session/plan_steps.h"
 #include "support/pty.h"
 #include "support/source_dir.h"
 
@@ -43,17 +43,17 @@ class PlanSessionTool : public testing::Test {
 TEST_F(PlanSessionTool, WritesAPlanThatFitsTheTimeAndSaysWhatTheWholeOneTakes) {
   const std::string printed =
       run({"--for", "discrepancy", "--minutes", "90", "--surface-folder", surfaces_, "--output", output()});
-  const auto plan = fsr::session_plan::readPlanFile(output());
-  EXPECT_LE(fsr::session_plan::sessionDuration(plan), 90 * 60);
+  const auto plan = fsr::session::readPlanFile(output());
+  EXPECT_LE(fsr::session::sessionDuration(plan), 90 * 60);
   EXPECT_EQ(plan.name, "day");
-  for (const char* part : {"Needed:", "They cannot tell:", "What a cut costs:",
-                           "The whole plan for discrepancy takes", "written: "})
+  for (const char* part :
+       {"Needed:", "They cannot tell:", "The whole plan for discrepancy takes", "written: "})
     EXPECT_TRUE(contains(printed, part)) << part << "\n" << printed;
 }
 
 TEST_F(PlanSessionTool, FindsTheSurfacesOfThePackageByItself) {
   EXPECT_TRUE(contains(run({"--for", "field_check", "--minutes", "20", "--output", output()}), "written: "));
-  EXPECT_EQ(fsr::session_plan::readPlanFile(output()).surfaces.at(0).surface.name, "flat");
+  EXPECT_EQ(fsr::session::readPlanFile(output()).surfaces.at(0).surface.name, "flat");
 }
 
 TEST_F(PlanSessionTool, DescribesAPlanAndItsSteps) {

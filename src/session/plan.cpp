@@ -1,0 +1,173 @@
+#include "session/plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <stdexcept>
+#include <variant>
+
+#include "fsr_pressure_map/settings/input_error.h"
+#include "settings/yaml_text.h"
+#include "simulation/pressure_profile.h"
+
+namespace fsr::session {
+
+namespace {
+
+using settings::numberText;
+
+constexpr std::pair<Purpose, const char*> kNames[] = {{Purpose::kPerCurvature, "per_curvature"},
+                                                      {Purpose::kHistory, "history"},
+                                                      {Purpose::kDiscrepancy, "discrepancy"},
+                                                      {Purpose::kFieldCheck, "field_check"}};
+
+/// Called by std::visit.
+struct Highest {
+  double operator()(const simulation::ChamberProtocol& part) const { return part.peak; }
+  double operator()(const simulation::HoldPart& part) const { return part.pressure; }
+  double operator()(const simulation::LoopsPart& part) const { return part.high; }
+  double operator()(const simulation::RestPart&) const { return 0; }
+};
+
+/// How many cycles or loops a part has. Called by std::visit.
+struct Pieces {
+  double operator()(const simulation::ChamberProtocol& part) const { return part.cycles; }
+  double operator()(const simulation::HoldPart&) const { return 1; }
+  double operator()(const simulation::LoopsPart& part) const { return part.loops; }
+  double operator()(const simulation::RestPart&) const { return 1; }
+};
+
+// What a person at a rig can do. Also bounds the memory that a plan takes.
+constexpr double kMostPieces = 100000;
+constexpr double kLongest = 7 * 86400;  // [s]
+
+[[noreturn]] void refuse(const SessionPlan& plan, const std::string& sentence) {
+  throw settings::InputError(plan.origin + ": " + sentence);
+}
+
+void requirePressures(const SessionPlan& plan) {
+  const double peak = largestPeak(plan), conditioning = conditioningPeak(plan);
+  const std::string limit = ", but chamber_limit is " + numberText(plan.chamber_limit) + " Pa";
+  if (peak > plan.chamber_limit) refuse(plan, "program reaches " + numberText(peak) + " Pa" + limit);
+  if (plan.conditioning.cycles > 0 && conditioning > plan.chamber_limit) {
+    refuse(plan, "conditioning reaches " + numberText(conditioning) + " Pa (share_of_peak " +
+                     numberText(plan.conditioning.share_of_peak) + " of " + numberText(peak) + " Pa)" +
+                     limit + "; give a smaller share_of_peak or smaller peaks");
+  }
+}
+
+void requireSurfaces(const SessionPlan& plan) {
+  if (plan.surfaces.empty()) refuse(plan, "surfaces is empty, but must contain at least one surface");
+  std::set<std::string> names;
+  for (std::size_t s = 0; s < plan.surfaces.size(); ++s) {
+    const std::string& name = plan.surfaces[s].surface.name;
+    if (!names.insert(name).second) {
+      refuse(plan, "surfaces[" + std::to_string(s) + "].surface is " + name +
+                       ", which is in the list already; give its number of mounts instead");
+    }
+  }
+}
+
+void requireProgram(const SessionPlan& plan) {
+  if (!(largestPeak(plan) > 0))
+    refuse(plan, "program applies no pressure, but must contain at least one cycle");
+  if (!std::isfinite(simulation::pressureProfile(plan.program).duration()))
+    refuse(plan, "program never ends; give cycles of 1 or more");
+}
+
+// Time on all mounts, without conditioning [s].
+double lengthOf(const SessionPlan& plan) {
+  const double each =
+      plan.change + plan.rest.before + plan.rest.after + simulation::pressureProfile(plan.program).duration();
+  double length = static_cast<double>(mountsOf(plan)) * each;
+  for (const Break& one : plan.breaks) length += one.duration;
+  return length;
+}
+
+void requireDoable(const SessionPlan& plan) {
+  double pieces = 0;
+  for (const simulation::ProgramPart& part : plan.program) pieces += std::visit(Pieces{}, part);
+  pieces *= static_cast<double>(mountsOf(plan));
+  if (pieces > kMostPieces) {
+    refuse(plan, "the session has " + numberText(pieces) +
+                     " cycles, loops and holds on all mounts, but may have at most " +
+                     numberText(kMostPieces));
+  }
+  if (lengthOf(plan) > kLongest) {
+    refuse(plan, "the session takes " + numberText(std::round(lengthOf(plan) / 3600)) +
+                     " h, but may take at most " + numberText(kLongest / 3600) +
+                     " h; make a plan for each week");
+  }
+}
+
+void requireBreaks(const SessionPlan& plan) {
+  const std::size_t mounts = mountsOf(plan);
+  unsigned last = 0;
+  for (std::size_t b = 0; b < plan.breaks.size(); ++b) {
+    const unsigned after = plan.breaks[b].after;
+    const std::string field = "breaks[" + std::to_string(b) + "].after is " + std::to_string(after);
+    if (after >= mounts) {
+      refuse(plan, field + ", but must be smaller than the number of mounts, " + std::to_string(mounts) +
+                       ": a break lies between two mounts");
+    }
+    if (after <= last) refuse(plan, field + ", but must be larger than that of the break before it");
+    last = after;
+  }
+}
+
+}  // namespace
+
+std::string name(Purpose purpose) {
+  for (const auto& [one, text] : kNames) {
+    if (one == purpose) return text;
+  }
+  throw std::out_of_range("purpose");
+}
+
+std::vector<std::string> purposeNames() {
+  std::vector<std::string> names;
+  for (const auto& entry : kNames) names.emplace_back(entry.second);
+  return names;
+}
+
+Purpose purposeCalled(const std::string& name) {
+  for (const auto& [purpose, text] : kNames) {
+    if (text == name) return purpose;
+  }
+  throw std::out_of_range(name);
+}
+
+double bendOf(const matrix::Surface& surface) {
+  double largest = 0;
+  for (const matrix::Curvature& one : surface.curvature) {
+    const double principal = matrix::principalCurvature(one);
+    if (std::abs(principal) > std::abs(largest)) largest = principal;
+  }
+  return largest;
+}
+
+double largestPeak(const SessionPlan& plan) {
+  double peak = 0;
+  for (const simulation::ProgramPart& part : plan.program) peak = std::max(peak, std::visit(Highest{}, part));
+  return peak;
+}
+
+double conditioningPeak(const SessionPlan& plan) {
+  return plan.conditioning.share_of_peak * largestPeak(plan);
+}
+
+std::size_t mountsOf(const SessionPlan& plan) {
+  std::size_t mounts = plan.repeat_first ? 1 : 0;
+  for (const PlannedSurface& surface : plan.surfaces) mounts += surface.mounts;
+  return mounts;
+}
+
+void validate(const SessionPlan& plan) {
+  requireSurfaces(plan);
+  requireProgram(plan);
+  requirePressures(plan);
+  requireBreaks(plan);
+  requireDoable(plan);
+}
+
+}  // namespace fsr::session

@@ -1,0 +1,247 @@
+#include "session/session_files.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+
+#include "fsr_pressure_map/settings/input_error.h"
+#include "session/plan_file.h"
+#include "settings/replace_file.h"
+#include "settings/settings.h"
+#include "settings/sha256.h"
+#include "settings/yaml_text.h"
+
+namespace fsr::session {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr char kState[] = "_session.yaml", kPart[] = "_part", kBag[] = ".bag";
+constexpr char kOpen[] = ".active";        // behind the name of a bag that is being written
+constexpr char kSetAside[] = "set_aside";  // folder of bags that do not count
+
+// Letters, digits, - and _ of a name; everything else may mean something in a path.
+std::string plainName(std::string name) {
+  for (char& one : name) {
+    const bool plain = (one >= 'a' && one <= 'z') || (one >= 'A' && one <= 'Z') || (one >= '0' && one <= '9');
+    if (!plain && one != '-' && one != '_') one = '_';
+  }
+  return name;
+}
+
+bool endsWith(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+MovedBag moveInto(const fs::path& folder, const fs::path& bag) {
+  fs::path kept = folder / bag.filename();
+  for (int copy = 2; fs::exists(kept); ++copy)
+    kept = folder / ("copy" + std::to_string(copy) + "_" + bag.filename().string());
+  std::error_code failed;
+  fs::create_directories(folder, failed);
+  if (!failed) fs::rename(bag, kept, failed);
+  return {bag.string(), kept.string(), failed ? failed.message() : ""};
+}
+
+// 1 of "STEM.bag", 2 of "STEM_part2.bag"; 0 = no bag of this mount.
+unsigned long partOf(const std::string& file, const std::string& stem) {
+  if (file == stem + kBag) return 1;
+  const std::string begin = stem + kPart;
+  if (file.compare(0, begin.size(), begin) != 0 || !endsWith(file, kBag)) return 0;
+  const std::string number = file.substr(begin.size(), file.size() - begin.size() - (sizeof kBag - 1));
+  constexpr std::size_t kMostDigits = 9;
+  const bool valid = !number.empty() && number.size() <= kMostDigits &&
+                     number.find_first_not_of("0123456789") == std::string::npos;
+  return valid ? std::stoul(number) : 0;
+}
+
+}  // namespace
+
+std::string stateFileName(const std::string& plan) {
+  return plainName(plan) + kState;
+}
+
+std::string planFileName(const std::string& plan) {
+  return plainName(plan) + "_plan.yaml";
+}
+
+std::string reportFileName(const std::string& plan) {
+  return plainName(plan) + "_report.html";
+}
+
+std::string calibrationFileName(const std::string& plan) {
+  return plainName(plan) + "_calibration.h5";
+}
+
+std::string resultsFolderName(const std::string& plan) {
+  return plainName(plan) + "_report";
+}
+
+std::string bagStem(const std::string& plan, unsigned mount, const std::string& surface) {
+  return plainName(plan) + "_" + (mount < 10 ? "0" : "") + std::to_string(mount) + "_" + plainName(surface);
+}
+
+std::string freeBagName(const std::string& folder, const std::string& stem) {
+  const std::string name = (fs::path(folder) / stem).string();
+  for (int part = 1;; ++part) {
+    const std::string one = name + (part == 1 ? "" : kPart + std::to_string(part));
+    if (!fs::exists(one + kBag) && !fs::exists(one + kBag + kOpen)) return one;
+  }
+}
+
+std::vector<std::string> bagsOfMount(const std::string& folder, const std::string& stem) {
+  std::map<unsigned long, std::string> parts;
+  std::error_code failed;
+  for (const auto& entry : fs::directory_iterator(folder, failed)) {
+    const std::string file = entry.path().filename().string();
+    const unsigned long part = partOf(file, stem);
+    if (part > 0) parts[part] = file;
+  }
+  std::vector<std::string> files;
+  for (const auto& [part, file] : parts) files.push_back(file);
+  return files;
+}
+
+std::vector<std::string> openBags(const std::string& folder, const std::string& plan) {
+  std::vector<std::string> files;
+  std::error_code failed;
+  for (const auto& entry : fs::directory_iterator(folder, failed)) {
+    const std::string file = entry.path().filename().string();
+    if (file.rfind(plainName(plan) + "_", 0) == 0 && endsWith(file, std::string(kBag) + kOpen))
+      files.push_back(file);
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::vector<MovedBag> setMountAside(const std::string& folder, const std::string& stem) {
+  std::vector<std::string> files;
+  std::error_code failed;
+  for (const auto& entry : fs::directory_iterator(folder, failed)) {
+    const std::string file = entry.path().filename().string();
+    const std::string closed =
+        endsWith(file, kOpen) ? file.substr(0, file.size() - (sizeof kOpen - 1)) : file;
+    if (partOf(closed, stem) > 0) files.push_back(file);
+  }
+  std::sort(files.begin(), files.end());
+  std::vector<MovedBag> moved;
+  for (const std::string& file : files)
+    moved.push_back(moveInto(fs::path(folder) / kSetAside, fs::path(folder) / file));
+  return moved;
+}
+
+std::string stateFileIn(const std::string& folder, const std::string& plan) {
+  if (!fs::is_directory(folder)) throw settings::InputError(folder + ": there is no such folder");
+  std::vector<std::string> found;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string file = entry.path().filename().string();
+    if (plan.empty() ? endsWith(file, kState) : file == stateFileName(plan)) found.push_back(file);
+  }
+  std::sort(found.begin(), found.end());
+  if (found.empty()) {
+    throw settings::InputError(folder + ": has no " +
+                               (plan.empty() ? "*" + std::string(kState) : stateFileName(plan)) +
+                               ", which session.launch writes; give the folder of a conducted session");
+  }
+  if (found.size() > 1) {
+    throw settings::InputError(folder + ": has the sessions " + found[0] + " and " + found[1] +
+                               "; say which with --plan");
+  }
+  return found.front();
+}
+
+FolderLock::FolderLock(const std::string& folder)
+    : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+  if (descriptor_ < 0 || ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+  ::close(descriptor_);
+  throw settings::InputError(
+      folder + ": another conductor leads a session in this folder; end it, or give another folder");
+}
+
+FolderLock::~FolderLock() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+namespace {
+
+std::string remarksText(const std::vector<StepRemark>& remarks) {
+  std::string text;
+  for (const StepRemark& remark : remarks) {
+    const std::string reason = remark.reason == Reason::kNone ? "" : ", reason: " + name(remark.reason);
+    text += "  - {step: " + std::to_string(remark.step + 1) + reason +
+            ", sentence: " + settings::quotedText(remark.sentence) + "}\n";
+  }
+  return text.empty() ? "" : "remarks:\n" + text;
+}
+
+Reason reasonCalled(const settings::Settings& entry) {
+  if (!entry.has("reason")) return Reason::kNone;
+  std::vector<std::string> names;
+  for (const Reason reason : dataset::allRejectReasons()) names.push_back(name(reason));
+  const std::string called = entry.choice("reason", names);
+  return dataset::allRejectReasons()[static_cast<std::size_t>(std::find(names.begin(), names.end(), called) -
+                                                              names.begin())];
+}
+
+std::vector<StepRemark> readRemarks(const settings::Settings& settings, std::size_t steps) {
+  std::vector<StepRemark> remarks;
+  if (!settings.has("remarks")) return remarks;
+  const settings::Range range{1, static_cast<double>(std::max<std::size_t>(steps, 1)), ""};
+  for (const settings::Settings& entry : settings.sections("remarks")) {
+    const auto step = static_cast<std::size_t>(entry.integer("step", range));
+    remarks.push_back({step - 1, reasonCalled(entry), entry.text("sentence")});
+  }
+  return remarks;
+}
+
+// The digest of a state was that of the plan's text, as it was worded then. It is beside the state, below a
+// remark of one line.
+std::string digestOfContent(const std::string& digest, const std::filesystem::path& plan) {
+  std::ifstream file(plan, std::ios::binary);
+  std::string remark;
+  std::getline(file, remark);
+  const std::string text(std::istreambuf_iterator<char>(file), {});
+  if (text.empty() || settings::sha256(text.data(), text.size()) != digest) return digest;
+  return digestOf(readPlanFile(plan.string()));
+}
+
+}  // namespace
+
+void writeState(const std::string& path, const ConductorState& state) {
+  std::string steps;
+  for (const StepState one : state.steps) steps += static_cast<char>(one);
+  settings::replaceFile(
+      path, "# A session that conduct goes on with.\nplan: " + settings::quotedText(state.plan) +
+                "\ndigest: " + settings::quotedText(state.digest) + "\ntime: " +
+                settings::numberText(state.time) + "\nrejected: " + std::to_string(state.rejected) +
+                "\nsteps: " + settings::quotedText(steps) + "\n" + remarksText(state.remarks));
+}
+
+ConductorState readState(const std::string& path) {
+  const settings::Settings settings = settings::Settings::fromFile(path);
+  ConductorState state;
+  state.plan = settings.text("plan");
+  state.digest = digestOfContent(settings.text("digest"),
+                                 std::filesystem::path(path).parent_path() / planFileName(state.plan));
+  state.time = settings.number("time", {0, 1e12, "s"});
+  state.rejected = static_cast<unsigned>(settings.integer("rejected", {0, 1e9, "attempts"}));
+  for (const char one : settings.text("steps")) {
+    if (one != '.' && one != 'a' && one != 's') {
+      throw settings.error("steps", "must consist of a (accepted), s (skipped) and . (open)");
+    }
+    state.steps.push_back(static_cast<StepState>(one));
+  }
+  state.remarks = readRemarks(settings, state.steps.size());
+  settings.refuseUnknown();
+  return state;
+}
+
+}  // namespace fsr::session

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "session/plan_file.h"
+#include "support/source_dir.h"
+
+namespace example_plans {
+
+inline std::string folder() {
+  return test_support::sourceDir() + "/config/surfaces";
+}
+
+inline fsr::session::SessionPlan shipped(const std::string& name) {
+  return fsr::session::readPlanFile(test_support::sourceDir() + "/config/sessions/" + name + ".yaml");
+}
+
+inline fsr::session::SessionPlan planFrom(const std::string& yaml) {
+  return fsr::session::readPlan(fsr::settings::Settings::fromText(yaml, "day.yaml"), folder());
+}
+
+/// The rest of a plan with two cycles of 62 s on one surface.
+constexpr char kSmall[] =
+    "plan: small\n"
+    "surfaces: [{surface: flat}]\n"
+    "program: [{cycles: {peak: 600000, rate: 20000, dwell_peak: 1, dwell_rest: 1, cycles: 2}}]\n";
+
+inline std::string messageOf(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const fsr::settings::InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+inline bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace example_plans

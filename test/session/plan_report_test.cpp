@@ -1,0 +1,111 @@
+#include "session/plan_report.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "dataset/conditioning.h"
+#include "session/example_plans.h"
+
+namespace fsr::session {
+namespace {
+
+using namespace example_plans;
+
+std::string joined(const std::vector<std::string>& sentences) {
+  std::string text;
+  for (const std::string& sentence : sentences) text += sentence + "\n";
+  return text;
+}
+
+// What `discrepancy` itself names in recordings of the shipped plans with these properties.
+TEST(PlanReport, NamesTheEffectsThatEachShippedPlanTells) {
+  using Names = std::vector<std::string>;
+  const Names always = {"seal_leak",    "dead_taxel", "row_fault",  "column_fault",
+                        "mains_pickup", "saturation", "stuck_taxel"};
+  const std::pair<const char*, Names> kMore[] = {
+      {"paper", {}},
+      {"field_check", {"repositioning", "break_in"}},
+      {"every_effect",
+       {"time_skew", "repositioning", "hysteresis", "creep", "relaxation", "temperature", "break_in", "wear",
+        "drift"}}};
+  for (const auto& [plan, more] : kMore) {
+    Names expected = always, told = effectsToldBy(shipped(plan));
+    expected.insert(expected.end(), more.begin(), more.end());
+    std::sort(expected.begin(), expected.end());
+    std::sort(told.begin(), told.end());
+    EXPECT_EQ(told, expected) << plan;
+  }
+}
+
+TEST(PlanReport, SaysWhatThePapersProtocolCannotTell) {
+  const std::string limits = joined(limitsOf(shipped("paper")));
+  for (const char* part : {"another mount: no surface is mounted twice", "hysteresis", "memory of the sheet",
+                           "tare", "temperature", "not conditioned", "below 0 and above 20 1/m",
+                           "above 620 kPa", "at most 85.7 % of new mounts (6 mounts); 95 % needs 19"})
+    EXPECT_TRUE(contains(limits, part)) << part << "\n" << limits;
+  EXPECT_FALSE(contains(limits, "between surfaces"));
+}
+
+// Each piece of a plan that is left out costs what it is there for, and nothing is lacking beside itself.
+TEST(PlanReport, SaysWhatAPlanLacksBesideALongerOne) {
+  struct Case {
+    const char* lost;
+    void (*leave_out)(SessionPlan&);
+  };
+  const Case kCases[] = {
+      {"another mount (surfaces: 1 instead of 4)",
+       [](SessionPlan& plan) {
+         for (PlannedSurface& one : plan.surfaces) one.mounts = 1;
+       }},
+      {"Ageing and drift", [](SessionPlan& plan) { plan.repeat_first = false; }},
+      {"between surfaces (surfaces: 1 instead of 2)", [](SessionPlan& plan) { plan.surfaces.pop_back(); }},
+      {"below 0 and above 14.3 1/m",
+       [](SessionPlan& plan) { plan.surfaces.erase(plan.surfaces.begin() + 1); }},
+      {"longest [s]: 10 instead of 100", [](SessionPlan& plan) { plan.program.pop_back(); }},
+      {"wear", [](SessionPlan& plan) { plan.breaks.clear(); }},
+      {"The influence of the temperature", [](SessionPlan& plan) { plan.thermometer = false; }},
+      {"not conditioned", [](SessionPlan& plan) { plan.conditioning.cycles = 0; }},
+      {"tare", [](SessionPlan& plan) { plan.rest.before = 0; }},
+      {"one protocol", [](SessionPlan& plan) { plan.program.resize(1); }},
+  };
+  const SessionPlan whole = shipped("every_effect");
+  EXPECT_EQ(joined(lacksBeside(whole, whole)), "");
+  for (const Case& one : kCases) {
+    SessionPlan less = whole;
+    one.leave_out(less);
+    EXPECT_TRUE(contains(joined(lacksBeside(whole, less)), one.lost)) << joined(lacksBeside(whole, less));
+  }
+}
+
+TEST(PlanReport, AsksFor19MountsForIntervalsOf95Percent) {
+  SessionPlan plan = planFrom(kSmall);
+  plan.surfaces[0].mounts = 17;
+  EXPECT_TRUE(contains(joined(limitsOf(plan)), "95 % needs"));
+  plan.surfaces[0].mounts = 18;
+  EXPECT_FALSE(contains(joined(limitsOf(plan)), "95 % needs"));
+}
+
+TEST(PlanReport, SaysWhatIsNeeded) {
+  const std::string report = planReport(shipped("every_effect"));
+  for (const char* part : {"4 h 37 min", "Chamber: up to 682 kPa.", "A thermometer",
+                           "Break of 2 h 0 min behind mount 4.", "discrepancy can name", "They cannot tell:"})
+    EXPECT_TRUE(contains(report, part)) << part;
+}
+
+TEST(PlanReport, RoundsTimesUp) {
+  EXPECT_EQ(timeText(60), "1 min");
+  EXPECT_EQ(timeText(61), "2 min");
+  EXPECT_EQ(timeText(3600), "1 h 0 min");
+}
+
+TEST(PlannedConditioning, IsWhatIsRecognisedInRecordings) {
+  const SessionPlan usual;
+  const dataset::ConditioningOptions recognised;
+  EXPECT_EQ(usual.conditioning.share_of_peak, recognised.share_of_peak);
+  EXPECT_EQ(usual.tolerance.peak, recognised.tolerance);
+  EXPECT_GE(usual.conditioning.cycles, recognised.cycles);
+}
+
+}  // namespace
+}  // namespace fsr::session
