@@ -11,7 +11,7 @@ from demo_tools import Failure, process, run_tool, serves, wait_until
 NAMESPACE = "fsr"
 MINUTES = 45          # of rig time that the plan may take
 REPORT = 900          # that check_bag, train and discrepancy may take for the report [s]
-MISTAKES = "peak_too_low@8,board_unplugged@20,too_fast@30"  # NAME@STEP, docs/nodes.md
+MISTAKES = "peak_too_low@8,board_unplugged@20,too_fast@30"  # NAME@STEP, src/emulator/mistakes.cpp
 SURFACES = pathlib.Path(__file__).resolve().parent.parent / "config/surfaces"
 
 

@@ -55,7 +55,7 @@ struct Mistake {
   void (*change)(Task&) = nullptr;       ///< for kNumbers: changes the numbers of the task
 };
 
-/// All mistakes, in the order of docs/nodes.md.
+/// All mistakes.
 const std::vector<Mistake>& mistakes();
 /// Throws InputError that lists the names where there is none of that name.
 const Mistake& mistakeCalled(const std::string& name);

@@ -23,7 +23,7 @@ struct DiscrepancyOptions {
   unsigned threads = 0;  ///< 0 = one for each core; the results do not depend on it
 
   // The constants of the decision: levels, sizes that matter, numbers of draws. They are printed with every
-  // result. Sources: docs/discrepancy.md.
+  // result. docs/discrepancy.md says what they decide.
 
   double level = 0.01;     ///< of the test whether anything is missing, and whether anything is left
   double credible = 0.95;  ///< probability that the credible set holds the best explanation

@@ -17,7 +17,7 @@ namespace fsr_ros {
 
 /// Rechecks a calibration on one surface: records until enough cycles of the chamber have passed, or takes
 /// bags that exist, and writes a corrected calibration where that wins. See recheck.launch and
-/// docs/recheck.md.
+/// docs/check.md.
 ///
 /// Parameters: `~calibration` (empty = that of the calibration node), `~output` (empty = beside it),
 /// `~report`, `~same_mount`, `~bags` (separated by spaces; empty = record), `~bag`, `~cycles`,
