@@ -234,10 +234,12 @@ TEST_F(HistoryFile, IsRefusedWhereItsModelCannotBeUsed) {
   EXPECT_EQ(complaint([](Calibration&) {}), "accepted");
   EXPECT_NE(complaint([](Calibration& c) { c.history.radius.front() = -1; }).find("/history/radius"),
             std::string::npos);
-  EXPECT_NE(complaint([](Calibration& c) { c.history.play_weight.pop_back(); }).find("weights"),
+  EXPECT_NE(complaint([](Calibration& c) { c.history.play_weight.pop_back(); }).find("/history/play_weight"),
             std::string::npos);
   EXPECT_NE(complaint([](Calibration& c) { c.history.knot.back() *= 2; }).find("evenly"), std::string::npos);
-  EXPECT_NE(complaint([](Calibration& c) { c.history.correction[1] = NAN; }).find("finite"),
+  EXPECT_NE(complaint([](Calibration& c) {
+              c.history.correction[1] = NAN;
+            }).find("/history/correction has a value of .nan"),
             std::string::npos);
 }
 

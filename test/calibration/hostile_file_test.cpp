@@ -69,7 +69,7 @@ TEST_F(HostileFile, ContentThatDoesNotFitIsRefused) {
   EXPECT_EQ(complaintAbout([](Calibration& c) {
               c.tables.classes[1].curvature = {1, 2, 3};
             }),
-            "its /tables/curvature does not fit /tables/surfaces and the matrix");
+            "its /tables/curvature does not fit its surfaces and the matrix");
   EXPECT_EQ(complaintAbout([](Calibration& c) { c.tables.classes[1].curvature = {NAN}; }),
             "its /tables/curvature is not finite");
   EXPECT_EQ(complaintAbout([](Calibration& c) {
@@ -79,11 +79,11 @@ TEST_F(HostileFile, ContentThatDoesNotFitIsRefused) {
   EXPECT_EQ(complaintAbout([](Calibration& c) {
               c.tables.rule.law = {{0, 9, 5}, {1, 1, 1}, {0, 0, 0}};
             }),
-            "its knots of /rule/law do not ascend");
+            "its /rule/law has knots that do not ascend");
   EXPECT_EQ(complaintAbout([](Calibration& c) {
               c.tables.rule.unseen = {{0, NAN}, {1, 1}};
             }),
-            "its knots of /rule/unseen do not ascend");
+            "its /rule/unseen has knots that do not ascend");
   EXPECT_EQ(complaintAbout([](Calibration& c) {
               compensation::TrainingStatistics statistics;
               statistics.classes = c.tables.classes;
@@ -91,7 +91,7 @@ TEST_F(HostileFile, ContentThatDoesNotFitIsRefused) {
               statistics.sections = 1;
               c.statistics = std::make_shared<const compensation::TrainingStatistics>(statistics);
             }),
-            "its /statistics taxels or sections do not fit the matrix");
+            "its /statistics/taxels or sections do not fit the matrix");
 }
 
 TEST_F(HostileFile, AnOversizedShapeAllocatesNothing) {

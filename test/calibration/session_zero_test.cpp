@@ -225,7 +225,7 @@ TEST_F(SessionZeroFile, IsRefusedWithAnErrorThatCannotBe) {
     loadCalibration(path_);
     FAIL();
   } catch (const settings::InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("its /session has a rmse of"), std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("its /session/rmse has a value of"), std::string::npos)
         << error.what();
   }
 }

@@ -273,10 +273,13 @@ TEST_F(TemperatureFile, IsRefusedWhereItsModelCannotBeUsed) {
     return std::string("accepted");
   };
   EXPECT_EQ(complaint([](auto&) {}), "accepted");
-  EXPECT_NE(complaint([](auto& model) { model.sensitivity = 7; }).find("/temperature has a sensitivity of 7"),
+  EXPECT_NE(
+      complaint([](auto& model) { model.sensitivity = 7; }).find("/temperature/sensitivity has a value of 7"),
+      std::string::npos);
+  EXPECT_NE(complaint([](auto& model) { model.lag = NAN; }).find("/temperature/lag has a value of .nan"),
             std::string::npos);
-  EXPECT_NE(complaint([](auto& model) { model.lag = NAN; }).find("a lag of nan"), std::string::npos);
-  EXPECT_NE(complaint([](auto& model) { model.high = -20; }).find("a high of -20"), std::string::npos);
+  EXPECT_NE(complaint([](auto& model) { model.high = -20; }).find("/temperature/high has a value of -20"),
+            std::string::npos);
 }
 
 // Of a live map.
