@@ -4,7 +4,6 @@
 #include "report/good_for.h"
 #include "report/history_report.h"
 #include "report/result_json.h"
-#include "report/session_report.h"
 
 namespace fsr::report {
 

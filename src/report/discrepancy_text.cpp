@@ -4,6 +4,7 @@
 #include "report/discrepancy_report.h"
 #include "report/first_screen.h"
 #include "report/flow_yaml.h"
+#include "report/text_table.h"
 #include "settings/number_text.h"
 
 namespace fsr::report {

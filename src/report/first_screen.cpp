@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "report/text_table.h"
 #include "settings/number_text.h"
 
 namespace fsr::report {
@@ -230,12 +231,6 @@ std::string nextText(const DiscrepancyReport& report) {
 }
 
 }  // namespace
-
-std::string joined(const std::vector<std::string>& items, const std::string& between) {
-  std::string all;
-  for (const std::string& item : items) all += (all.empty() ? "" : between) + item;
-  return all;
-}
 
 std::vector<FirstScreenItem> firstScreen(const DiscrepancyReport& report) {
   const bool first = scattersMore(report);

@@ -20,7 +20,4 @@ struct FirstScreenItem {
 /// does not have are left out.
 std::vector<FirstScreenItem> firstScreen(const discrepancy::DiscrepancyReport& report);
 
-/// The items with `between` between them.
-std::string joined(const std::vector<std::string>& items, const std::string& between = ", ");
-
 }  // namespace fsr::report
