@@ -18,8 +18,6 @@ namespace {
 
 using report::json;  // the overloads of result_json.h
 
-using report::json;  // the overloads of result_json.h
-
 Json json(const statistics::BinnedErrors::Directions& errors) {
   return {
       {"all", json(errors.all)}, {"loading", json(errors.loading)}, {"unloading", json(errors.unloading)}};

@@ -11,8 +11,6 @@ namespace {
 
 using report::json;  // the overloads of result_json.h
 
-using report::json;  // the overloads of result_json.h
-
 Json json(const statistics::TestResult& test) {
   return {{"test", test.test},
           {"symbol", test.symbol},
