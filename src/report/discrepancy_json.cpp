@@ -1,5 +1,4 @@
 #include "report/discrepancy_report.h"
-#include "report/first_screen.h"
 #include "report/result_json.h"
 
 namespace fsr::report {

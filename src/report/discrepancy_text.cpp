@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "report/discrepancy_report.h"
-#include "report/first_screen.h"
 #include "report/members_yaml.h"
 #include "report/text_table.h"
 #include "settings/number_text.h"

@@ -1,9 +1,8 @@
-#include "report/first_screen.h"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
 
+#include "report/discrepancy_report.h"
 #include "report/text_table.h"
 #include "settings/number_text.h"
 
