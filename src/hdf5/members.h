@@ -8,12 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "hdf5/reader.h"
-#include "hdf5/writer.h"
+#include "hdf5/file.h"
 
 namespace fsr::hdf5 {
-
-using Shape = std::vector<std::size_t>;
 
 /// The names of an enumeration in a file.
 template <typename Value>
