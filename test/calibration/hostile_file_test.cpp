@@ -14,6 +14,7 @@
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "fsr_pressure_map/calibration/calibrator.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "support/file_complaint.h"
 #include "support/small_calibration.h"
 
 namespace fsr::calibration {
@@ -26,20 +27,9 @@ class HostileFile : public testing::Test {
  protected:
   ~HostileFile() override { std::remove(path_.c_str()); }
 
-  // The error message after the path, or "accepted".
-  std::string complaint() const {
-    try {
-      loadCalibration(path_, CalibrationParts::kAll);
-    } catch (const settings::InputError& error) {
-      return std::string(error.what()).substr(path_.size() + 2);
-    }
-    return "accepted";
-  }
+  std::string complaint() const { return test_support::fileComplaint(path_); }
   std::string complaintAbout(const std::function<void(Calibration&)>& spoil) const {
-    Calibration calibration = sound();
-    spoil(calibration);
-    saveCalibration(calibration, path_);
-    return complaint();
+    return test_support::fileComplaint(sound(), path_, spoil);
   }
   static Calibration sound() {
     Calibration calibration = test_support::smallCalibration(kSize, {0.0, 10.0}, "A", kFullScale);

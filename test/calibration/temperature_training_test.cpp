@@ -18,6 +18,7 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "fsr_pressure_map/simulation/simulate.h"
 #include "simulation/read_settings.h"
+#include "support/file_complaint.h"
 #include "support/simulated_rig.h"
 
 namespace fsr::calibration {
@@ -262,15 +263,7 @@ TEST_F(TemperatureFile, HasASchemaOfItsOwn) {
 TEST_F(TemperatureFile, IsRefusedWhereItsModelCannotBeUsed) {
   const Calibration whole = trained(recordingsOf(warmRig()));
   const auto complaint = [&](const std::function<void(compensation::TemperatureModel&)>& spoil) {
-    Calibration spoiled = whole;
-    spoil(spoiled.temperature);
-    saveCalibration(spoiled, path_);
-    try {
-      loadCalibration(path_);
-    } catch (const settings::InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string("accepted");
+    return test_support::fileComplaint(whole, path_, [&](Calibration& c) { spoil(c.temperature); });
   };
   EXPECT_EQ(complaint([](auto&) {}), "accepted");
   EXPECT_NE(

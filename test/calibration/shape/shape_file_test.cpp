@@ -11,6 +11,7 @@
 
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "support/file_complaint.h"
 #include "support/planted_shape.h"
 #include "support/small_calibration.h"
 #include "support/source_dir.h"
@@ -36,17 +37,8 @@ class ShapeFile : public testing::Test {
     saveCalibration(saved, path_);
     return loadCalibration(path_);
   }
-  // The error message after the path, or "accepted".
   std::string complaintAbout(const std::function<void(ShapeModel&)>& spoil) const {
-    Calibration spoiled = calibration();
-    spoil(spoiled.shape);
-    saveCalibration(spoiled, path_);
-    try {
-      loadCalibration(path_);
-    } catch (const settings::InputError& error) {
-      return std::string(error.what()).substr(path_.size() + 2);
-    }
-    return "accepted";
+    return test_support::fileComplaint(calibration(), path_, [&](Calibration& c) { spoil(c.shape); });
   }
 
   const std::string path_ = testing::TempDir() + "shape_" + std::to_string(::getpid()) + ".h5";
