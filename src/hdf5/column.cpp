@@ -52,20 +52,22 @@ hid_t textType(std::size_t size) {
   return type;
 }
 
-void setAttribute(hid_t file, const std::string& path, const std::string& name, const std::string& text) {
+void setAttribute(hid_t file, const std::string& path, const std::string& name, hid_t type, hid_t space,
+                  const void* values) {
   const Handle object(H5Oopen(file, path.c_str(), H5P_DEFAULT), H5Oclose, path);
+  const Handle made(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, name);
+  require(H5Awrite(made, type, values), name);
+}
+
+void setAttribute(hid_t file, const std::string& path, const std::string& name, const std::string& text) {
   const Handle type(textType(text.size()), H5Tclose, name);
   const Handle space(H5Screate(H5S_SCALAR), H5Sclose, name);
-  const Handle made(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, name);
-  require(H5Awrite(made, type, text.c_str()), name);
+  setAttribute(file, path, name, type, space, text.c_str());
 }
 
 void setAttribute(hid_t file, const std::string& path, const std::string& name, double value) {
-  const Handle object(H5Oopen(file, path.c_str(), H5P_DEFAULT), H5Oclose, path);
   const Handle space(H5Screate(H5S_SCALAR), H5Sclose, name);
-  const Handle made(H5Acreate2(object, name.c_str(), H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, H5P_DEFAULT),
-                    H5Aclose, name);
-  require(H5Awrite(made, H5T_NATIVE_DOUBLE, &value), name);
+  setAttribute(file, path, name, H5T_NATIVE_DOUBLE, space, &value);
 }
 
 ColumnWriter::ColumnWriter(hid_t file, const ColumnPlan& plan)

@@ -29,6 +29,8 @@ hid_t textType(std::size_t size);
 /// Attributes of a group or dataset that exists.
 void setAttribute(hid_t file, const std::string& path, const std::string& name, const std::string& text);
 void setAttribute(hid_t file, const std::string& path, const std::string& name, double value);
+void setAttribute(hid_t file, const std::string& path, const std::string& name, hid_t type, hid_t space,
+                  const void* values);
 
 /// A dataset [entries x shape] that grows entry by entry; chunked, shuffled and compressed (deflate).
 class ColumnWriter {

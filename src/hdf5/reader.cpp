@@ -1,4 +1,4 @@
-#include "hdf5/reader.h"
+#include "hdf5/file.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -20,6 +20,10 @@ hid_t openFile(const std::string& path) {
   return H5Fopen(path.c_str(), H5F_ACC_RDONLY, access);
 }
 
+hid_t openAttribute(hid_t file, const std::string& path, const std::string& name) {
+  return H5Aopen_by_name(file, path.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT);
+}
+
 }  // namespace
 
 Reader::Reader(const std::string& path)
@@ -37,8 +41,7 @@ bool Reader::has(const std::string& path) const {
 
 std::string Reader::text(const std::string& path, const std::string& name) const {
   const std::string what = path + " " + name;
-  const Handle attribute(H5Aopen_by_name(file_, path.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
-                         H5Aclose, what);
+  const Handle attribute(openAttribute(file_, path, name), H5Aclose, what);
   const Handle type(H5Aget_type(attribute), H5Tclose, what);
   if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0) {
     throw settings::InputError("its HDF5 part holds " + what + ", but not as a text of fixed length");
@@ -55,8 +58,7 @@ std::string Reader::text(const std::string& path, const std::string& name) const
 std::vector<double> Reader::numbers(const std::string& path, const std::string& name,
                                     std::size_t size) const {
   const std::string what = path + " " + name;
-  const Handle attribute(H5Aopen_by_name(file_, path.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
-                         H5Aclose, what);
+  const Handle attribute(openAttribute(file_, path, name), H5Aclose, what);
   const Handle space(H5Aget_space(attribute), H5Sclose, what);
   if (H5Sget_simple_extent_npoints(space) != static_cast<hssize_t>(size)) {
     throw settings::InputError("its HDF5 part holds " + what + ", but not of " + std::to_string(size) +
@@ -69,8 +71,7 @@ std::vector<double> Reader::numbers(const std::string& path, const std::string& 
 
 std::uint64_t Reader::integer(const std::string& path, const std::string& name) const {
   const std::string what = path + " " + name;
-  const Handle attribute(H5Aopen_by_name(file_, path.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
-                         H5Aclose, what);
+  const Handle attribute(openAttribute(file_, path, name), H5Aclose, what);
   const Handle space(H5Aget_space(attribute), H5Sclose, what);
   if (H5Sget_simple_extent_npoints(space) != 1) {
     throw settings::InputError("its HDF5 part holds " + what + ", but not as one number");
@@ -80,7 +81,7 @@ std::uint64_t Reader::integer(const std::string& path, const std::string& name) 
   return value;
 }
 
-std::vector<std::size_t> Reader::shape(const std::string& path) const {
+Shape Reader::shape(const std::string& path) const {
   const Handle dataset(H5Dopen2(file_, path.c_str(), H5P_DEFAULT), H5Dclose, path);
   const Handle space(H5Dget_space(dataset), H5Sclose, path);
   std::vector<hsize_t> size(static_cast<std::size_t>(std::max(0, H5Sget_simple_extent_ndims(space))));
@@ -90,8 +91,7 @@ std::vector<std::size_t> Reader::shape(const std::string& path) const {
 }
 
 // A file may claim any shape. Nothing is compressed, so each value takes at least a byte of the file.
-void Reader::requireRoom(const std::string& path, const std::vector<std::size_t>& shape,
-                         std::size_t bytes) const {
+void Reader::requireRoom(const std::string& path, const Shape& shape, std::size_t bytes) const {
   std::size_t left = size_ / std::max<std::size_t>(bytes, 1);
   for (const std::size_t length : shape) {
     if (length > left)
@@ -101,8 +101,8 @@ void Reader::requireRoom(const std::string& path, const std::vector<std::size_t>
 }
 
 template <typename T>
-std::vector<T> Reader::dataset(const std::string& path, const std::vector<std::size_t>& expected) const {
-  const std::vector<std::size_t> found = shape(path);
+std::vector<T> Reader::dataset(const std::string& path, const Shape& expected) const {
+  const Shape found = shape(path);
   if (found != expected) {
     throw settings::InputError("its " + path + " is " + shapeText(found) + ", but must be " +
                                shapeText(expected));
@@ -121,7 +121,7 @@ std::vector<std::string> Reader::texts(const std::string& path) const {
     throw settings::InputError("its " + path + " does not hold texts of fixed length");
   }
   const std::size_t length = H5Tget_size(type);
-  const std::vector<std::size_t> size = shape(path);
+  const Shape size = shape(path);
   requireRoom(path, size, length);
   std::string padded(length * elements(size), '\0');
   if (!padded.empty()) require(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, padded.data()), path);
@@ -130,15 +130,12 @@ std::vector<std::string> Reader::texts(const std::string& path) const {
   return texts;
 }
 
-template std::vector<std::uint8_t> Reader::dataset(const std::string&, const std::vector<std::size_t>&) const;
-template std::vector<std::uint16_t> Reader::dataset(const std::string&,
-                                                    const std::vector<std::size_t>&) const;
-template std::vector<std::uint32_t> Reader::dataset(const std::string&,
-                                                    const std::vector<std::size_t>&) const;
-template std::vector<std::uint64_t> Reader::dataset(const std::string&,
-                                                    const std::vector<std::size_t>&) const;
-template std::vector<std::int64_t> Reader::dataset(const std::string&, const std::vector<std::size_t>&) const;
-template std::vector<float> Reader::dataset(const std::string&, const std::vector<std::size_t>&) const;
-template std::vector<double> Reader::dataset(const std::string&, const std::vector<std::size_t>&) const;
+template std::vector<std::uint8_t> Reader::dataset(const std::string&, const Shape&) const;
+template std::vector<std::uint16_t> Reader::dataset(const std::string&, const Shape&) const;
+template std::vector<std::uint32_t> Reader::dataset(const std::string&, const Shape&) const;
+template std::vector<std::uint64_t> Reader::dataset(const std::string&, const Shape&) const;
+template std::vector<std::int64_t> Reader::dataset(const std::string&, const Shape&) const;
+template std::vector<float> Reader::dataset(const std::string&, const Shape&) const;
+template std::vector<double> Reader::dataset(const std::string&, const Shape&) const;
 
 }  // namespace fsr::hdf5

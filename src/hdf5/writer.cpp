@@ -1,4 +1,4 @@
-#include "hdf5/writer.h"
+#include "hdf5/file.h"
 
 #include <algorithm>
 #include <functional>
@@ -14,18 +14,6 @@ namespace fsr::hdf5 {
 
 namespace {
 
-inline std::vector<hsize_t> extents(const std::vector<std::size_t>& shape) {
-  return {shape.begin(), shape.end()};
-}
-
-void writeAttribute(hid_t file, const std::string& path, const std::string& name, hid_t type, hid_t space,
-                    const void* values) {
-  const Handle object(H5Oopen(file, path.c_str(), H5P_DEFAULT), H5Oclose, path);
-  const Handle attribute(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
-                         name);
-  require(H5Awrite(attribute, type, values), name);
-}
-
 // A new dataset without values.
 hid_t createDataset(hid_t file, const std::string& path, hid_t type, hid_t space) {
   const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, path);
@@ -37,21 +25,14 @@ hid_t createSpace(const std::vector<hsize_t>& size) {
   return H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr);
 }
 
-void writeDataset(hid_t file, const std::string& path, hid_t type, const std::vector<std::size_t>& shape,
-                  const void* values) {
-  const Handle space(createSpace(extents(shape)), H5Sclose, path);
-  const Handle dataset(createDataset(file, path, type, space), H5Dclose, path);
-  if (elements(shape) > 0) require(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), path);
-}
-
 template <typename T>
 using Piece = std::function<std::vector<T>(std::size_t)>;
 
 // Each piece fills the slabs behind those of the piece before it.
 template <typename Stored, typename T>
 void writePieces(hid_t file, const std::string& path, std::size_t pieces, const Piece<T>& piece,
-                 const std::vector<std::size_t>& shape) {
-  const std::vector<hsize_t> size = extents(shape);
+                 const Shape& shape) {
+  const std::vector<hsize_t> size(shape.begin(), shape.end());
   const hsize_t slab = std::accumulate(size.begin() + 1, size.end(), hsize_t{1}, std::multiplies<>());
   const Handle space(createSpace(size), H5Sclose, path);
   const Handle dataset(createDataset(file, path, typeOf<Stored>(), space), H5Dclose, path);
@@ -66,6 +47,7 @@ void writePieces(hid_t file, const std::string& path, std::size_t pieces, const 
     require(H5Dwrite(dataset, typeOf<Stored>(), memory, space, H5P_DEFAULT, stored.data()), path);
     start[0] += count[0];
   }
+  if (slab > 0 && start[0] != size[0]) throw std::logic_error(path + " is not " + shapeText(shape));
 }
 
 hid_t createFile(const std::string& name) {
@@ -92,20 +74,17 @@ void Writer::group(const std::string& path) {
 }
 
 void Writer::attribute(const std::string& path, const std::string& name, const std::string& text) {
-  const Handle type(textType(text.size()), H5Tclose, name);
-  const Handle space(H5Screate(H5S_SCALAR), H5Sclose, name);
-  writeAttribute(file_, path, name, type, space, text.c_str());
+  setAttribute(file_, path, name, text);
 }
 
 void Writer::attribute(const std::string& path, const std::string& name, const std::vector<double>& values) {
-  const hsize_t size = values.size();
-  const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose, name);
-  writeAttribute(file_, path, name, H5T_NATIVE_DOUBLE, space, values.data());
+  const Handle space(createSpace({values.size()}), H5Sclose, name);
+  setAttribute(file_, path, name, H5T_NATIVE_DOUBLE, space, values.data());
 }
 
 void Writer::attribute(const std::string& path, const std::string& name, std::uint64_t value) {
   const Handle space(H5Screate(H5S_SCALAR), H5Sclose, name);
-  writeAttribute(file_, path, name, H5T_NATIVE_UINT64, space, &value);
+  setAttribute(file_, path, name, H5T_NATIVE_UINT64, space, &value);
 }
 
 namespace {
@@ -134,7 +113,7 @@ using Half = std::conditional_t<sizeof(T) == 8, std::uint32_t,
 // In the narrowest type that holds all values, beginning with Stored.
 template <typename Stored, typename T>
 void writeNarrowest(hid_t file, const std::string& path, std::size_t pieces, const Piece<T>& piece,
-                    const std::vector<std::size_t>& shape) {
+                    const Shape& shape) {
   if constexpr (std::is_integral_v<Stored> && sizeof(Stored) > 1) {
     if (fits<Half<Stored>>(pieces, piece)) {
       writeNarrowest<Half<Stored>>(file, path, pieces, piece, shape);
@@ -147,24 +126,8 @@ void writeNarrowest(hid_t file, const std::string& path, std::size_t pieces, con
 }  // namespace
 
 template <typename T>
-void Writer::dataset(const std::string& path, const std::vector<T>& values,
-                     const std::vector<std::size_t>& shape, const std::string& unit,
-                     const std::string& meaning) {
-  if (elements(shape) != values.size()) throw std::logic_error(path + " is not " + shapeText(shape));
-  if constexpr (std::is_integral_v<T> && sizeof(T) > 1) {
-    if (fits<Half<T>>(values)) {
-      dataset(path, std::vector<Half<T>>(values.begin(), values.end()), shape, unit, meaning);
-      return;
-    }
-  }
-  writeDataset(file_, path, typeOf<T>(), shape, values.data());
-  describe(path, unit, meaning);
-}
-
-template <typename T>
-void Writer::dataset(const std::string& path, std::size_t pieces, const Piece<T>& piece,
-                     const std::vector<std::size_t>& shape, const std::string& unit,
-                     const std::string& meaning) {
+void Writer::dataset(const std::string& path, std::size_t pieces, const Piece<T>& piece, const Shape& shape,
+                     const std::string& unit, const std::string& meaning) {
   writeNarrowest<T>(file_, path, pieces, piece, shape);
   describe(path, unit, meaning);
 }
@@ -181,7 +144,9 @@ void Writer::texts(const std::string& path, const std::vector<std::string>& text
   std::string padded;
   for (const std::string& text : texts) padded += text + std::string(length - text.size(), '\0');
   const Handle type(textType(length), H5Tclose, path);
-  writeDataset(file_, path, type, {texts.size()}, padded.data());
+  const Handle space(createSpace({texts.size()}), H5Sclose, path);
+  const Handle dataset(createDataset(file_, path, type, space), H5Dclose, path);
+  if (!texts.empty()) require(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, padded.data()), path);
   if (!meaning.empty()) attribute(path, "meaning", meaning);
 }
 
@@ -191,30 +156,19 @@ void Writer::finish() {
   require(closed, "file");
 }
 
-template void Writer::dataset(const std::string&, const std::vector<std::uint8_t>&,
-                              const std::vector<std::size_t>&, const std::string&, const std::string&);
-template void Writer::dataset(const std::string&, const std::vector<std::uint16_t>&,
-                              const std::vector<std::size_t>&, const std::string&, const std::string&);
-template void Writer::dataset(const std::string&, const std::vector<std::uint32_t>&,
-                              const std::vector<std::size_t>&, const std::string&, const std::string&);
-template void Writer::dataset(const std::string&, const std::vector<std::uint64_t>&,
-                              const std::vector<std::size_t>&, const std::string&, const std::string&);
-template void Writer::dataset(const std::string&, const std::vector<std::int64_t>&,
-                              const std::vector<std::size_t>&, const std::string&, const std::string&);
-template void Writer::dataset(const std::string&, const std::vector<float>&, const std::vector<std::size_t>&,
+template void Writer::dataset(const std::string&, std::size_t, const Piece<std::uint8_t>&, const Shape&,
                               const std::string&, const std::string&);
-template void Writer::dataset(const std::string&, const std::vector<double>&, const std::vector<std::size_t>&,
+template void Writer::dataset(const std::string&, std::size_t, const Piece<std::uint16_t>&, const Shape&,
                               const std::string&, const std::string&);
-
-template void Writer::dataset(const std::string&, std::size_t, const Piece<std::uint16_t>&,
-                              const std::vector<std::size_t>&, const std::string&, const std::string&);
-template void Writer::dataset(const std::string&, std::size_t, const Piece<std::uint32_t>&,
-                              const std::vector<std::size_t>&, const std::string&, const std::string&);
-template void Writer::dataset(const std::string&, std::size_t, const Piece<std::uint64_t>&,
-                              const std::vector<std::size_t>&, const std::string&, const std::string&);
-template void Writer::dataset(const std::string&, std::size_t, const Piece<std::int64_t>&,
-                              const std::vector<std::size_t>&, const std::string&, const std::string&);
-template void Writer::dataset(const std::string&, std::size_t, const Piece<float>&,
-                              const std::vector<std::size_t>&, const std::string&, const std::string&);
+template void Writer::dataset(const std::string&, std::size_t, const Piece<std::uint32_t>&, const Shape&,
+                              const std::string&, const std::string&);
+template void Writer::dataset(const std::string&, std::size_t, const Piece<std::uint64_t>&, const Shape&,
+                              const std::string&, const std::string&);
+template void Writer::dataset(const std::string&, std::size_t, const Piece<std::int64_t>&, const Shape&,
+                              const std::string&, const std::string&);
+template void Writer::dataset(const std::string&, std::size_t, const Piece<float>&, const Shape&,
+                              const std::string&, const std::string&);
+template void Writer::dataset(const std::string&, std::size_t, const Piece<double>&, const Shape&,
+                              const std::string&, const std::string&);
 
 }  // namespace fsr::hdf5

@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
-#include <sstream>
 
 #include "report/calibration_report.h"
+#include "report/text_table.h"
 #include "settings/number_text.h"
 
 namespace fsr::report {
@@ -33,45 +32,33 @@ std::string numbers(const std::vector<std::size_t>& values) {
   return list;
 }
 
-std::string lagText(const discrepancy::AdmittedRecording& recording) {
-  return recording.lag ? settings::cellText(recording.lag->seconds, 2) : "-";
-}
-
-void addRow(const discrepancy::AdmittedRecording& row, int width, std::ostringstream& out) {
-  out << std::left << std::setw(width) << row.name << std::right << std::setw(8) << row.scans << std::setw(10)
-      << settings::cellText(row.seconds, 1) << std::setw(10) << row.surfaces << std::setw(7)
-      << row.losses.lost_scans << std::setw(7) << row.losses.sequence_gaps << std::setw(9) << lagText(row)
-      << std::setw(13) << settings::cellText(100 * row.health.saturated, 2) << std::setw(6)
-      << row.health.dead.size() << std::setw(7) << row.health.stuck.size() << '\n';
-}
-
-void addTable(const discrepancy::Admission& admission, std::ostringstream& out) {
-  std::size_t width = 6;
+std::string recordingsTable(const discrepancy::Admission& admission) {
+  TextTable table(
+      {"bag", "scans", "time [s]", "surfaces", "lost", "gaps", "lag [s]", "saturated %", "dead", "stuck"});
   for (const discrepancy::AdmittedRecording& row : admission.recordings)
-    width = std::max(width, row.name.size() + 2);
-  out << std::left << std::setw(static_cast<int>(width)) << "bag" << std::right << std::setw(8) << "scans"
-      << std::setw(10) << "time [s]" << std::setw(10) << "surfaces" << std::setw(7) << "lost" << std::setw(7)
-      << "gaps" << std::setw(9) << "lag [s]" << std::setw(13) << "saturated %" << std::setw(6) << "dead"
-      << std::setw(7) << "stuck" << '\n';
-  for (const discrepancy::AdmittedRecording& row : admission.recordings)
-    addRow(row, static_cast<int>(width), out);
+    table.row({row.name, std::to_string(row.scans), settings::cellText(row.seconds, 1),
+               std::to_string(row.surfaces), std::to_string(row.losses.lost_scans),
+               std::to_string(row.losses.sequence_gaps),
+               row.lag ? settings::cellText(row.lag->seconds, 2) : "-",
+               settings::cellText(100 * row.health.saturated, 2), std::to_string(row.health.dead.size()),
+               std::to_string(row.health.stuck.size())});
+  return table.text();
 }
 
-void addHealth(const discrepancy::AdmittedRecording& row, const matrix::Layout& layout,
-               std::ostringstream& out) {
+std::string healthText(const discrepancy::AdmittedRecording& row, const matrix::Layout& layout) {
   const health::RecordingHealth& health = row.health;
-  if (!health.dead.empty())
-    out << row.name << ": dead (row, column): " << places(health.dead, layout) << '\n';
-  if (!health.stuck.empty())
-    out << row.name << ": stuck (row, column): " << places(health.stuck, layout) << '\n';
-  if (!health.rows.empty()) out << row.name << ": failed rows: " << numbers(health.rows) << '\n';
-  if (!health.columns.empty()) out << row.name << ": failed columns: " << numbers(health.columns) << '\n';
-  if (health.saturated_taxels == 0) return;
-  out << row.name << ": " << health.saturated_taxels << " taxels reach full scale";
-  if (!std::isnan(health.saturated_from)) {
-    out << ", at " << settings::cellText(health.saturated_from / 1000, 0) << " kPa or more";
-  }
-  out << '\n';
+  std::vector<std::string> sentences;
+  if (!health.dead.empty()) sentences.push_back("dead (row, column): " + places(health.dead, layout));
+  if (!health.stuck.empty()) sentences.push_back("stuck (row, column): " + places(health.stuck, layout));
+  if (!health.rows.empty()) sentences.push_back("failed rows: " + numbers(health.rows));
+  if (!health.columns.empty()) sentences.push_back("failed columns: " + numbers(health.columns));
+  if (health.saturated_taxels > 0)
+    sentences.push_back(
+        std::to_string(health.saturated_taxels) + " taxels reach full scale" +
+        (std::isnan(health.saturated_from)
+             ? ""
+             : ", at " + settings::cellText(health.saturated_from / 1000, 0) + " kPa or more"));
+  return linesOf(sentences, row.name + ": ");
 }
 
 std::string faultText(const discrepancy::Fault& fault, const matrix::Layout& layout) {
@@ -96,65 +83,57 @@ std::string verdict(const discrepancy::Admission& admission, const std::vector<s
   return "Fit for training; not for discrepancy, because " + admission.discrepancy + "." + look;
 }
 
-void addRests(const calibration::SocketCheck& check, std::ostringstream& out) {
-  for (const auto& [name, rest] : {std::pair{"before", &check.before}, std::pair{"after", &check.after}}) {
-    out << "Rest " << name << ": ";
-    if (*rest) {
-      out << settings::cellText((*rest)->from, 1) << " to " << settings::cellText((*rest)->to, 1) << " s\n";
-    } else {
-      out << "none recorded\n";
-    }
-  }
-  if (check.change.empty()) return;
-  const double worst = check.change[check.worst];
-  out << "Change of the readings at rest: median " << percent(check.median_change, 2) << " of full scale";
-  if (!std::isnan(check.median_pressure_change)) {
-    out << " (" << settings::cellText(check.median_pressure_change / 1000, 1) << " kPa)";
-  }
-  out << ", largest " << percent(worst, 2) << " at (row, column) " << places({check.worst}, check.layout)
-      << "; " << check.changed << (check.changed == 1 ? " taxel" : " taxels") << " beyond the limit\n";
+std::string restText(const std::string& name, const std::optional<calibration::SocketRest>& rest) {
+  return "Rest " + name + ": " +
+         (rest ? settings::cellText(rest->from, 1) + " to " + settings::cellText(rest->to, 1) + " s\n"
+               : "none recorded\n");
+}
+
+std::string changeOfRest(const calibration::SocketCheck& check) {
+  if (check.change.empty()) return "";
+  const std::string pressure =
+      std::isnan(check.median_pressure_change)
+          ? ""
+          : " (" + settings::cellText(check.median_pressure_change / 1000, 1) + " kPa)";
+  return "Change of the readings at rest: median " + percent(check.median_change, 2) + " of full scale" +
+         pressure + ", largest " + percent(check.change[check.worst], 2) + " at (row, column) " +
+         places({check.worst}, check.layout) + "; " + std::to_string(check.changed) +
+         (check.changed == 1 ? " taxel" : " taxels") + " beyond the limit\n";
 }
 
 }  // namespace
 
 std::string admissionText(const discrepancy::Admission& admission) {
-  std::ostringstream out;
-  addTable(admission, out);
+  std::string text = recordingsTable(admission);
   for (const discrepancy::AdmittedRecording& row : admission.recordings)
-    addHealth(row, admission.layout, out);
-  for (const discrepancy::Fault& fault : admission.faults) {
-    out << "Intermittent fault: " << faultText(fault, admission.layout) << '\n';
-  }
-  if (!admission.coverage.conditions.empty()) out << '\n' << coverageText(admission.coverage);
-  out << '\n';
-  for (const std::string& remark : admission.remarks) out << "Note: " << remark << '\n';
-  for (const std::string& mount : admission.mounts) out << "Mounts differ: " << mount << '\n';
+    text += healthText(row, admission.layout);
+  for (const discrepancy::Fault& fault : admission.faults)
+    text += "Intermittent fault: " + faultText(fault, admission.layout) + '\n';
+  if (!admission.coverage.conditions.empty()) text += '\n' + coverageText(admission.coverage);
   std::vector<std::string> problems = admission.problems;
   if (!admission.training.empty()) problems.insert(problems.begin(), admission.training);
-  for (const std::string& problem : problems) out << "Problem: " << problem << '\n';
-  out << verdict(admission, problems) << '\n';
-  return out.str();
+  return text + '\n' + linesOf(admission.remarks, "Note: ") + linesOf(admission.mounts, "Mounts differ: ") +
+         linesOf(problems, "Problem: ") + verdict(admission, problems) + '\n';
 }
 
 std::string socketText(const calibration::SocketCheck& check) {
-  std::ostringstream out;
-  out << check.name << '\n';
-  addRests(check, out);
-  out << "At full scale: " << percent(check.saturated, 2) << " of the readings\n"
-      << "Outside the readings of training: " << percent(check.beyond, 2)
-      << "; outside its curvatures: " << percent(check.bent_beyond, 2)
-      << (std::isnan(check.beyond) ? " (give --calibration)" : "") << '\n'
-      << "Longest static load: " << settings::cellText(check.longest.seconds, 0) << " s";
-  if (check.longest.seconds > 0) {
-    out << ", from second " << settings::cellText(check.longest.from, 0) << ", at (row, column) "
-        << places({check.longest.taxel}, check.layout);
-  }
-  out << "\nDead (row, column): " << (check.dead.empty() ? "none" : places(check.dead, check.layout))
-      << "; stuck: " << (check.stuck.empty() ? "none" : places(check.stuck, check.layout)) << '\n';
-  for (const std::string& reason : check.reasons) out << "Problem: " << reason << '\n';
-  out << (check.reasons.empty() ? "Readings are usable" : "Look again" + because(check.reasons))
-      << "; no reference: accuracy not assessed.\n";
-  return out.str();
+  const std::string longest = check.longest.seconds > 0
+                                  ? ", from second " + settings::cellText(check.longest.from, 0) +
+                                        ", at (row, column) " + places({check.longest.taxel}, check.layout)
+                                  : "";
+  const auto listed = [&](const std::vector<std::size_t>& taxels) {
+    return taxels.empty() ? "none" : places(taxels, check.layout);
+  };
+  return check.name + '\n' + restText("before", check.before) + restText("after", check.after) +
+         changeOfRest(check) + "At full scale: " + percent(check.saturated, 2) +
+         " of the readings\nOutside the readings of training: " + percent(check.beyond, 2) +
+         "; outside its curvatures: " + percent(check.bent_beyond, 2) +
+         (std::isnan(check.beyond) ? " (give --calibration)" : "") +
+         "\nLongest static load: " + settings::cellText(check.longest.seconds, 0) + " s" + longest +
+         "\nDead (row, column): " + listed(check.dead) + "; stuck: " + listed(check.stuck) + '\n' +
+         linesOf(check.reasons, "Problem: ") +
+         (check.reasons.empty() ? "Readings are usable" : "Look again" + because(check.reasons)) +
+         "; no reference: accuracy not assessed.\n";
 }
 
 }  // namespace fsr::report

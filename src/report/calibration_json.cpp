@@ -3,14 +3,11 @@
 #include "report/calibration_report.h"
 #include "report/good_for.h"
 #include "report/history_report.h"
-#include "report/result_json.h"
-#include "report/session_report.h"
+#include "report/members_json.h"
 
 namespace fsr::report {
 
 namespace {
-
-using report::json;  // the overloads of result_json.h
 
 Json json(const calibration::TrainedInterval& interval) {
   return Json::array({interval.low, interval.high});
@@ -18,12 +15,12 @@ Json json(const calibration::TrainedInterval& interval) {
 
 Json json(const calibration::Score& score) {
   return {{"readings", score.readings},
-          {"r2", json(score.r2)},
-          {"rmse_percent", json(score.rmse_percent)},
+          {"r2", resultOf(score.r2)},
+          {"rmse_percent", resultOf(score.rmse_percent)},
           {"worst_taxel", score.worst_taxel},
           {"worst_rmse_percent", score.worst_rmse_percent},
           {"within_one_deviation", score.within_one_deviation},
-          {"errors_pa", json(score.errors)}};
+          {"errors_pa", resultOf(score.errors)}};
 }
 
 Json json(const calibration::CalibrationScores& scores) {
@@ -93,9 +90,6 @@ Json model(const calibration::Calibration& calibration) {
 
 Json json(const calibration::Correction& correction) {
   if (!correction.present()) return nullptr;
-  Json bags = Json::array();
-  for (const calibration::SourceBag& bag : correction.bags)
-    bags.push_back({{"name", bag.name}, {"sha256", bag.sha256}, {"scans", bag.scans}});
   return {{"parent", correction.parent},
           {"parent_date", correction.parent_date},
           {"date", correction.date},
@@ -103,7 +97,7 @@ Json json(const calibration::Correction& correction) {
           {"gain", correction.gain},
           {"offset_counts", correction.offset},
           {"surfaces", correction.surfaces},
-          {"bags", bags},
+          {"bags", resultOf(correction.bags)},
           {"cycles", correction.cycles},
           {"expected_rmse", correction.expected_rmse},
           {"rmse_before", correction.rmse_before},
@@ -123,7 +117,7 @@ std::string calibrationJson(const calibration::Calibration& calibration) {
                          {"length_scale", calibration.tables.rule.length_scale},
                          {"model_of_class", calibration.tables.rule.model_of_class},
                          {"folds", calibration.folds},
-                         {"sensor", json(calibration.sensor)},
+                         {"sensor", resultOf(calibration.sensor)},
                          {"layout",
                           {{"rows", layout.size.rows},
                            {"columns", layout.size.columns},
@@ -135,7 +129,7 @@ std::string calibrationJson(const calibration::Calibration& calibration) {
                            {"pressure_rate", json(trained.pressure_rate)},
                            {"curvature", json(trained.curvature)},
                            {"temperature", json(trained.temperature)}}},
-                         {"provenance", json(calibration.provenance)},
+                         {"provenance", resultOf(calibration.provenance)},
                          {"correction", json(calibration.correction)},
                          {"warnings", calibration.warnings},
                          {"coverage", json(calibration.coverage)},

@@ -2,21 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
-#include <sstream>
 
+#include "report/budget_report.h"
+#include "report/history_report.h"
+#include "report/text_table.h"
 #include "settings/number_text.h"
 
 namespace fsr::report {
 
 namespace {
-
-constexpr int kNameWidth = 18;
-constexpr int kCellWidth = 14;
-
-std::string kilopascal(double pressure) {
-  return settings::fixedText(pressure / 1e3, 1);
-}
 
 std::string spread(const statistics::Spread& value, int digits) {
   return std::isnan(value.deviation) ? settings::fixedText(value.mean, digits)
@@ -31,58 +25,48 @@ std::string curvature(const dataset::CurvatureClass& condition, double unit, int
   return *low == *high ? first : first + ".." + settings::fixedText(*high / unit, digits);
 }
 
-void nameCell(std::ostream& out, const std::string& name) {
-  out << std::left << std::setw(kNameWidth) << (name.empty() ? "(no name)" : name) << ' ' << std::right;
+std::string nameText(const std::string& name) {
+  return name.empty() ? "(no name)" : name;
 }
 
-void cell(std::ostream& out, const std::string& text, int width = kCellWidth) {
-  out << std::setw(width) << text;
-}
-
-void binHeads(std::ostream& out) {
+// Headings, then one for each pressure bin.
+std::vector<std::string> withBins(std::vector<std::string> headings) {
   for (std::size_t bin = 0; bin < statistics::kPressureBins; ++bin)
-    cell(out, statistics::pressureBinName(bin) + " kPa");
-  out << '\n';
+    headings.push_back(statistics::pressureBinName(bin) + " kPa");
+  return headings;
 }
 
-void coverageRow(std::ostream& out, const dataset::ConditionCoverage& row) {
-  nameCell(out, row.condition.surface);
-  cell(out, curvature(row.condition, 1.0, 2), 12);
-  cell(out, curvature(row.condition, 100.0, 3), 12);
-  cell(out, std::to_string(row.scans), 8);
-  cell(out, std::to_string(row.cycles), 7);
-  cell(out, row.mounts.empty() ? "-" : std::to_string(row.mounts.size()), 7);
-  for (std::size_t bin = 0; bin < statistics::kPressureBins; ++bin) {
-    cell(out, std::to_string(row.loading[bin].scans) + "/" + std::to_string(row.unloading[bin].scans));
-  }
-  out << '\n';
+std::vector<std::string> coverageRow(const dataset::ConditionCoverage& row) {
+  std::vector<std::string> cells = {
+      nameText(row.condition.surface),    curvature(row.condition, 1.0, 2),
+      curvature(row.condition, 100.0, 3), std::to_string(row.scans),
+      std::to_string(row.cycles),         row.mounts.empty() ? "-" : std::to_string(row.mounts.size())};
+  for (std::size_t bin = 0; bin < statistics::kPressureBins; ++bin)
+    cells.push_back(std::to_string(row.loading[bin].scans) + "/" + std::to_string(row.unloading[bin].scans));
+  return cells;
 }
 
-void scoreRow(std::ostream& out, const std::string& name, const calibration::Score& score,
-              const matrix::Layout& layout) {
+std::vector<std::string> scoreRow(const std::string& name, const calibration::Score& score,
+                                  const matrix::Layout& layout) {
   const statistics::ErrorSummary& errors = score.errors.whole.all;
-  nameCell(out, name);
-  cell(out, spread(score.r2, 4), 20);
-  cell(out, spread(score.rmse_percent, 2), 16);
-  cell(out, kilopascal(errors.rmse), 8);
-  cell(out, kilopascal(errors.bias), 8);
-  cell(out, kilopascal(errors.limit_low) + ".." + kilopascal(errors.limit_high), 16);
-  cell(out, kilopascal(errors.p95_absolute), 8);
-  cell(out,
-       settings::fixedText(score.worst_rmse_percent, 2) + " (" +
-           std::to_string(layout.row({score.worst_taxel})) + ", " +
-           std::to_string(layout.column({score.worst_taxel})) + ")",
-       16);
-  cell(out, settings::percentText(score.within_one_deviation), 13);
-  out << '\n';
+  return {nameText(name),
+          spread(score.r2, 4),
+          spread(score.rmse_percent, 2),
+          inKilopascals(errors.rmse),
+          inKilopascals(errors.bias),
+          inKilopascals(errors.limit_low) + ".." + inKilopascals(errors.limit_high),
+          inKilopascals(errors.p95_absolute),
+          settings::fixedText(score.worst_rmse_percent, 2) + " (" +
+              std::to_string(layout.row({score.worst_taxel})) + ", " +
+              std::to_string(layout.column({score.worst_taxel})) + ")",
+          settings::percentText(score.within_one_deviation)};
 }
 
-void binRow(std::ostream& out, const std::string& name, const calibration::Score& score) {
-  nameCell(out, name);
-  for (const statistics::BinnedErrors::Directions& bin : score.errors.bins) {
-    cell(out, kilopascal(bin.loading.rmse) + "/" + kilopascal(bin.unloading.rmse));
-  }
-  out << '\n';
+std::vector<std::string> binRow(const std::string& name, const calibration::Score& score) {
+  std::vector<std::string> cells = {nameText(name)};
+  for (const statistics::BinnedErrors::Directions& bin : score.errors.bins)
+    cells.push_back(inKilopascals(bin.loading.rmse) + "/" + inKilopascals(bin.unloading.rmse));
+  return cells;
 }
 
 template <typename Row>
@@ -96,97 +80,63 @@ void forEachRow(const calibration::CalibrationScores& scores, Row row) {
 }  // namespace
 
 std::string coverageText(const dataset::Coverage& coverage) {
-  std::ostringstream out;
-  out << "Coverage: number of scans during loading/unloading, by gauge pressure\n";
-  nameCell(out, "surface");
-  cell(out, "1/m", 12);
-  cell(out, "1/cm", 12);
-  cell(out, "scans", 8);
-  cell(out, "cycles", 7);
-  cell(out, "mounts", 7);
-  binHeads(out);
-  for (const dataset::ConditionCoverage& row : coverage.conditions) coverageRow(out, row);
-  out << (coverage.thin.empty() ? "Coverage is complete.\n" : "Few or no data:\n");
-  for (const std::string& sentence : coverage.thin) out << "  " << sentence << '\n';
-  return out.str();
+  TextTable table(withBins({"surface", "1/m", "1/cm", "scans", "cycles", "mounts"}));
+  for (const dataset::ConditionCoverage& row : coverage.conditions) table.row(coverageRow(row));
+  return "Coverage: number of scans during loading/unloading, by gauge pressure\n" + table.text() +
+         (coverage.thin.empty() ? "Coverage is complete.\n" : "Few or no data:\n") +
+         linesOf(coverage.thin, "  ");
 }
 
 std::string scoresText(const calibration::CalibrationScores& scores, const matrix::Layout& layout) {
   if (scores.conditions.empty()) return "Scores were not computed.\n";
-  std::ostringstream out;
-  out << "Held-out readings, predicted without their section; R2 and RMSE%: mean +- standard deviation over "
-         "taxels\n";
-  nameCell(out, "surface");
-  cell(out, "R2", 20);
-  cell(out, "RMSE%", 16);
-  cell(out, "RMSE", 8);
-  cell(out, "bias", 8);
-  cell(out, "95 % limits", 16);
-  cell(out, "p95", 8);
-  cell(out, "worst taxel", 16);
-  cell(out, "within 1 dev", 13);
-  out << '\n';
-  nameCell(out, " ");
-  cell(out, "", 36);
-  cell(out, "kPa", 8);
-  cell(out, "kPa", 8);
-  cell(out, "kPa", 16);
-  cell(out, "kPa", 8);
-  cell(out, "% (row, col.)", 16);
-  out << '\n';
+  TextTable table(
+      {"surface", "R2", "RMSE%", "RMSE", "bias", "95 % limits", "p95", "worst taxel", "within 1 dev"});
+  table.row({"", "", "", "kPa", "kPa", "kPa", "kPa", "% (row, col.)"});
+  TextTable bins(withBins({"surface"}));
+  bool untrained = false;
   forEachRow(scores, [&](const std::string& name, const calibration::Score& score) {
-    scoreRow(out, name, score, layout);
+    table.row(scoreRow(name, score, layout));
+    bins.row(binRow(name, score));
   });
-  out << "RMSE [kPa] during loading/unloading\n";
-  nameCell(out, "surface");
-  binHeads(out);
-  forEachRow(scores,
-             [&](const std::string& name, const calibration::Score& score) { binRow(out, name, score); });
-  const auto untrained = [](const calibration::ConditionScore& condition) { return !condition.trained; };
-  out << unseenText(scores.unseen);
-  if (scores.remount.readings > 0) {
-    out << "Another mount (each mount left out in turn; part of the stated deviation): RMSE "
-        << kilopascal(scores.remount.rmse) << " kPa, " << spread(scores.remount.rmse_percent, 2) << " %\n";
-  } else {
-    out << "Another mount: not assessed, because no surface was mounted more than once. Errors after putting "
-           "the matrix on again\nare larger than those above and than the stated deviation. Record each "
-           "surface on two mounts or more.\n";
-  }
-  if (std::any_of(scores.conditions.begin(), scores.conditions.end(), untrained)) {
-    out << "* the model used for this surface was not trained on it\n";
-  }
-  return out.str();
+  for (const calibration::ConditionScore& condition : scores.conditions) untrained |= !condition.trained;
+  const std::string remount =
+      scores.remount.readings > 0
+          ? "Another mount (each mount left out in turn; part of the stated deviation): RMSE " +
+                inKilopascals(scores.remount.rmse) + " kPa, " + spread(scores.remount.rmse_percent, 2) +
+                " %\n"
+          : "Another mount: not assessed, because no surface was mounted more than once. Errors after "
+            "putting "
+            "the matrix on again\nare larger than those above and than the stated deviation. Record each "
+            "surface on two mounts or more.\n";
+  return "Held-out readings, predicted without their section; R2 and RMSE%: mean +- standard deviation over "
+         "taxels\n" +
+         table.text() + "RMSE [kPa] during loading/unloading\n" + bins.text() + unseenText(scores.unseen) +
+         remount + (untrained ? "* the model used for this surface was not trained on it\n" : "");
 }
 
 std::string unseenText(const calibration::UnseenScore& score) {
   if (score.readings == 0) return "";
   return "Curvature not used for training (each inner surface left out in turn): RMSE " +
-         kilopascal(score.rmse) + " kPa, " + spread(score.rmse_percent, 2) + " %\n";
+         inKilopascals(score.rmse) + " kPa, " + spread(score.rmse_percent, 2) + " %\n";
 }
 
 std::string warningsText(const calibration::Calibration& calibration) {
-  std::string text;
-  for (const std::string& warning : calibration.warnings) text += "Warning: " + warning + '\n';
-  return text;
+  return linesOf(calibration.warnings, "Warning: ");
 }
 
 std::string learnedText(const calibration::Calibration& calibration) {
   const compensation::CurvatureTables& tables = calibration.tables;
-  std::ostringstream text;
-  if (tables.scheme == compensation::Scheme::kScaledCurvature && !tables.rule.length_scale.empty()) {
-    text << "Length scale of curvature: " << settings::roundedText(tables.rule.length_scale.front(), 3)
-         << " 1/m\n";
+  if (tables.scheme == compensation::Scheme::kScaledCurvature && !tables.rule.length_scale.empty())
+    return "Length scale of curvature: " + settings::roundedText(tables.rule.length_scale.front(), 3) +
+           " 1/m\n";
+  if (tables.scheme != compensation::Scheme::kCurvatureRanges) return "";
+  std::string text = "Curvature ranges: ";
+  const std::vector<std::size_t>& model = tables.rule.model_of_class;
+  for (std::size_t k = 0; k < tables.classes.size(); ++k) {
+    const bool same = k > 0 && !model.empty() && model[k] == model[k - 1];
+    text += (k == 0 ? "" : same ? ", " : "; ") + tables.classes[k].surface;
   }
-  if (tables.scheme == compensation::Scheme::kCurvatureRanges) {
-    text << "Curvature ranges: ";
-    const std::vector<std::size_t>& model = tables.rule.model_of_class;
-    for (std::size_t k = 0; k < tables.classes.size(); ++k) {
-      const bool same = k > 0 && !model.empty() && model[k] == model[k - 1];
-      text << (k == 0 ? "" : same ? ", " : "; ") << tables.classes[k].surface;
-    }
-    text << '\n';
-  }
-  return text.str();
+  return text + '\n';
 }
 
 std::string modelText(const calibration::Calibration& calibration) {
@@ -194,6 +144,75 @@ std::string modelText(const calibration::Calibration& calibration) {
   if (model.name != "grnn") return model.name;
   return model.name + ", bandwidth " + settings::roundedText(model.grnn.bandwidth, 3) +
          (calibration.bandwidth_chosen ? " (chosen)" : "");
+}
+
+namespace {
+
+// Lines of each kind that a summary has at most. Together with the heading, the row of all surfaces, a line
+// for each of four choices, one for new curvatures and one for the budget they are kSummaryLines.
+constexpr std::size_t kSurfaces = 8;
+constexpr std::size_t kNotes = 2;
+constexpr std::size_t kWarnings = 3;
+constexpr std::size_t kThin = 1;
+
+// The first sentences, one a line, and how many more there are.
+std::string firstOf(const std::string& head, const std::vector<std::string>& sentences, std::size_t most) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(most, sentences.size()); ++i) {
+    const std::size_t more = i + 1 == most ? sentences.size() - most : 0;
+    text +=
+        head + sentences[i] + (more > 0 ? " (and " + std::to_string(more) + " more: --details)" : "") + '\n';
+  }
+  return text;
+}
+
+std::string surfaceRows(const calibration::Calibration& calibration) {
+  const std::vector<dataset::ConditionCoverage>& rows = calibration.coverage.conditions;
+  const calibration::CalibrationScores& scores = calibration.scores;
+  TextTable table(
+      {"Held-out readings", "scans", "cycles", "mounts", "RMSE kPa", "RMSE %", "95 % within kPa"});
+  const auto row = [&](const std::string& name, std::uint64_t scans, std::uint64_t cycles,
+                       const std::string& mounts, const calibration::Score& score) {
+    const statistics::ErrorSummary& errors = score.errors.whole.all;
+    table.row({nameText(name), std::to_string(scans), std::to_string(cycles), mounts,
+               inKilopascals(errors.rmse), settings::fixedText(score.rmse_percent.mean, 2),
+               inKilopascals(errors.p95_absolute)});
+  };
+  std::uint64_t scans = 0, cycles = 0;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    scans += rows[k].scans, cycles += rows[k].cycles;
+    if (k >= kSurfaces) continue;
+    row(rows[k].condition.surface, rows[k].scans, rows[k].cycles,
+        rows[k].mounts.empty() ? "-" : std::to_string(rows[k].mounts.size()),
+        k < scores.conditions.size() ? scores.conditions[k].score : calibration::Score{});
+  }
+  row(rows.size() > kSurfaces ? "all " + std::to_string(rows.size()) : "all together", scans, cycles, "",
+      scores.whole);
+  return table.text();
+}
+
+}  // namespace
+
+std::string trainingSummary(const calibration::Calibration& calibration) {
+  const calibration::CalibrationScores& scores = calibration.scores;
+  std::string text = surfaceRows(calibration) +
+                     firstOf("Few or no data: ", calibration.coverage.thin, kThin) +
+                     firstOf("Note: ", calibration.provenance.conditioning, kNotes) +
+                     firstOf("Warning: ", calibration.warnings, kWarnings) + unseenText(scores.unseen);
+  for (const std::string& choice : {scores.session.choice, scores.temperature.choice, scores.history.choice})
+    text += choice.empty() ? "" : choice + '\n';
+  text += learnedText(calibration);
+  if (!calibration.budget.present()) return text;
+  text += "Combined standard uncertainty:";
+  for (const double value : calibration.budget.combined) text += ' ' + inKilopascals(value);
+  return text + " kPa at 10, 50 and 90 % of the trained pressures\n";
+}
+
+std::string trainingDetails(const calibration::Calibration& calibration) {
+  return linesOf(calibration.provenance.conditioning, "Note: ") + warningsText(calibration) +
+         scoresText(calibration.scores, calibration.layout) + sessionText(calibration.scores.session) +
+         temperatureText(calibration) + historyText(calibration) + learnedText(calibration) +
+         (calibration.budget.present() ? '\n' + budgetText(calibration.budget, calibration.layout) : "");
 }
 
 }  // namespace fsr::report

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "fsr_pressure_map/calibration/calibration.h"
@@ -32,5 +33,12 @@ std::string modelText(const calibration::Calibration& calibration);
 
 /// The whole calibration but its tables and statistics, as indented JSON. Numbers are SI; null = no value.
 std::string calibrationJson(const calibration::Calibration& calibration);
+
+/// What `train` prints of a training on one screen, at most kSummaryLines lines.
+std::string trainingSummary(const calibration::Calibration& calibration);
+constexpr std::size_t kSummaryLines = 25;
+
+/// All tables of a training but its coverage.
+std::string trainingDetails(const calibration::Calibration& calibration);
 
 }  // namespace fsr::report

@@ -1,13 +1,9 @@
-#include <nlohmann/json.hpp>
-
 #include "report/discrepancy_report.h"
-#include "report/first_screen.h"
+#include "report/result_json.h"
 
 namespace fsr::report {
 
 namespace {
-
-using Json = nlohmann::ordered_json;  // NaN is written as null
 
 Json json(const discrepancy::Interval& interval) {
   return Json::array({interval.low, interval.high});
@@ -195,43 +191,46 @@ Json list(const Items& items) {
 
 }  // namespace
 
+Json discrepancyMembers(const discrepancy::DiscrepancyReport& report) {
+  return {{"verdict", discrepancy::name(report.verdict)},
+          {"sentence", report.sentence},
+          {"first_screen", list(firstScreen(report))},
+          {"effects", list(report.effects)},
+          {"credible_set", report.credible_set},
+          {"depends_on", report.depends_on},
+          {"not_identifiable", list(report.not_identifiable)},
+          {"covariates", list(report.covariates)},
+          {"p", report.p},
+          {"at_map_pa", report.at_map},
+          {"least_gap_pa", report.least_gap},
+          {"smallest_seen", list(report.smallest_seen)},
+          {"too_small", list(report.too_small)},
+          {"scatter", list(report.scatter)},
+          {"answers", list(report.answers)},
+          {"options", json(report.options)},
+          {"where", json(report.where)},
+          {"gap", json(report.gap)},
+          {"recompute", report.recompute},
+          {"map_gain", report.map_gain},
+          {"in_use", list(report.in_use)},
+          {"next_experiment",
+           report.next_experiment.empty() ? Json(nullptr) : json(report.next_experiment.front())},
+          {"candidates", list(report.candidates)},
+          {"tested", report.tested},
+          {"limitations", report.limitations},
+          {"curves", list(report.curves)},
+          {"steps", list(report.steps)},
+          {"simulation", report.base.name},
+          {"next_experiments", list(report.next_experiment)},
+          {"prediction", json(report.prediction)},
+          {"prediction_hash", report.prediction.hash},
+          {"inputs", list(report.inputs)},
+          {"seed", report.seed},
+          {"version", report.version}};
+}
+
 std::string discrepancyJson(const discrepancy::DiscrepancyReport& report) {
-  const Json all = {{"verdict", discrepancy::name(report.verdict)},
-                    {"sentence", report.sentence},
-                    {"first_screen", list(firstScreen(report))},
-                    {"effects", list(report.effects)},
-                    {"credible_set", report.credible_set},
-                    {"depends_on", report.depends_on},
-                    {"not_identifiable", list(report.not_identifiable)},
-                    {"covariates", list(report.covariates)},
-                    {"p", report.p},
-                    {"at_map_pa", report.at_map},
-                    {"least_gap_pa", report.least_gap},
-                    {"smallest_seen", list(report.smallest_seen)},
-                    {"too_small", list(report.too_small)},
-                    {"scatter", list(report.scatter)},
-                    {"answers", list(report.answers)},
-                    {"options", json(report.options)},
-                    {"where", json(report.where)},
-                    {"gap", json(report.gap)},
-                    {"recompute", report.recompute},
-                    {"map_gain", report.map_gain},
-                    {"in_use", list(report.in_use)},
-                    {"next_experiment",
-                     report.next_experiment.empty() ? Json(nullptr) : json(report.next_experiment.front())},
-                    {"candidates", list(report.candidates)},
-                    {"tested", report.tested},
-                    {"limitations", report.limitations},
-                    {"curves", list(report.curves)},
-                    {"steps", list(report.steps)},
-                    {"simulation", report.base.name},
-                    {"next_experiments", list(report.next_experiment)},
-                    {"prediction", json(report.prediction)},
-                    {"prediction_hash", report.prediction.hash},
-                    {"inputs", list(report.inputs)},
-                    {"seed", report.seed},
-                    {"version", report.version}};
-  return all.dump(2) + "\n";
+  return dump(discrepancyMembers(report));
 }
 
 }  // namespace fsr::report

@@ -2,13 +2,15 @@
 #include <cmath>
 
 #include "report/discrepancy_report.h"
-#include "report/first_screen.h"
-#include "report/flow_yaml.h"
+#include "report/members_yaml.h"
+#include "report/text_table.h"
 #include "settings/number_text.h"
 
 namespace fsr::report {
 
 namespace {
+
+constexpr int kDigits = 5;
 
 using settings::fixedText;
 using settings::percentText;
@@ -51,17 +53,8 @@ std::string opened(const std::vector<discrepancy::InputUse>& inputs) {
 
 std::string interval(const discrepancy::FittedParameter& parameter) {
   const std::string unit = parameter.unit.empty() ? "" : " " + parameter.unit;
-  return flow_yaml::number(parameter.interval.low) + " to " + flow_yaml::number(parameter.interval.high) +
+  return yamlNumber(parameter.interval.low, kDigits) + " to " + yamlNumber(parameter.interval.high, kDigits) +
          unit;
-}
-
-std::string rivalsYaml(const std::vector<discrepancy::RivalAnswer>& rivals) {
-  std::vector<std::string> items;
-  for (const discrepancy::RivalAnswer& rival : rivals)
-    items.push_back(flow_yaml::map({{"explanation", flow_yaml::text(rival.explanation)},
-                                    {"nats", flow_yaml::number(rival.nats)},
-                                    {"better", rival.better ? "true" : "false"}}));
-  return flow_yaml::list(items);
 }
 
 }  // namespace
@@ -109,20 +102,23 @@ std::string confirmationText(const discrepancy::Confirmation& confirmation) {
 std::string confirmationYaml(const discrepancy::Confirmation& confirmation,
                              const std::string& prediction_hash,
                              const std::vector<discrepancy::InputUse>& inputs) {
-  namespace yaml = flow_yaml;
-  std::string text = "# " + confirmation.sentence + "\npassed: " + (confirmation.passed ? "true" : "false") +
-                     "\nsize: " + yaml::number(confirmation.size) +
-                     "\nsize_interval: " + yaml::pair(confirmation.interval.low, confirmation.interval.high) +
-                     "\npredicted: " + yaml::pair(confirmation.predicted.low, confirmation.predicted.high) +
-                     "\np: " + yaml::number(confirmation.p) + "\nrivals: " + rivalsYaml(confirmation.rivals) +
-                     "\nshare_of_error: " + yaml::number(confirmation.share_of_error) + "\nbest_rival: " +
-                     (confirmation.best_rival.empty() ? "null" : yaml::text(confirmation.best_rival)) +
-                     "\nprediction_hash: \"" + prediction_hash + "\"\ninputs:\n";
-  for (const discrepancy::InputUse& input : inputs) {
-    text +=
-        "  - " + yaml::map({{"file", yaml::text(input.file)}, {"sha256", "\"" + input.sha256 + "\""}}) + "\n";
-  }
-  return text;
+  Json rivals = Json::array(), bags = Json::array();
+  for (const discrepancy::RivalAnswer& rival : confirmation.rivals)
+    rivals.push_back({{"explanation", rival.explanation}, {"nats", rival.nats}, {"better", rival.better}});
+  for (const discrepancy::InputUse& input : inputs)
+    bags.push_back({{"file", input.file}, {"sha256", input.sha256}});
+  const Json members = {
+      {"passed", confirmation.passed},
+      {"size", confirmation.size},
+      {"size_interval", Json::array({confirmation.interval.low, confirmation.interval.high})},
+      {"predicted", Json::array({confirmation.predicted.low, confirmation.predicted.high})},
+      {"p", confirmation.p},
+      {"rivals", rivals},
+      {"share_of_error", confirmation.share_of_error},
+      {"best_rival", orElse(confirmation.best_rival, nullptr)},
+      {"prediction_hash", prediction_hash},
+      {"inputs", bags}};
+  return "# " + confirmation.sentence + "\n" + yamlText(members, kDigits);
 }
 
 }  // namespace fsr::report

@@ -1,9 +1,9 @@
-#include "report/first_screen.h"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
 
+#include "report/discrepancy_report.h"
+#include "report/text_table.h"
 #include "settings/number_text.h"
 
 namespace fsr::report {
@@ -230,12 +230,6 @@ std::string nextText(const DiscrepancyReport& report) {
 }
 
 }  // namespace
-
-std::string joined(const std::vector<std::string>& items, const std::string& between) {
-  std::string all;
-  for (const std::string& item : items) all += (all.empty() ? "" : between) + item;
-  return all;
-}
 
 std::vector<FirstScreenItem> firstScreen(const DiscrepancyReport& report) {
   const bool first = scattersMore(report);

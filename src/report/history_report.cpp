@@ -1,90 +1,94 @@
 #include "report/history_report.h"
 
-#include <iomanip>
-#include <sstream>
-
+#include "report/text_table.h"
 #include "settings/number_text.h"
 
 namespace fsr::report {
 
 namespace {
 
-constexpr int kPartWidth = 52;
+constexpr int kDecimals = 2;  // of an error [kPa]
 constexpr const char* kFamilyNames[] = {"static", "plays", "memories", "both"};
 
-std::string partKilopascal(double pressure) {
-  return settings::fixedText(pressure / 1e3, 2);
-}
-
-void head(std::ostream& out, const std::string& name) {
-  out << std::left << std::setw(kPartWidth) << name << std::right;
-}
-
-void protocolTable(std::ostream& out, const std::vector<calibration::HistoryScore::Protocol>& protocols) {
-  out << "RMSE [kPa] of means over half a second; each protocol was predicted without it\n";
-  head(out, "protocol");
-  for (const char* name : kFamilyNames) out << std::setw(10) << name;
-  out << std::setw(10) << "c alone" << '\n';
+std::string protocolTable(const std::vector<calibration::HistoryScore::Protocol>& protocols) {
+  TextTable table({"protocol", "static", "plays", "memories", "both", "c alone"});
   for (const auto& protocol : protocols) {
-    head(out, protocol.name);
-    for (const double rmse : protocol.rmse) out << std::setw(10) << partKilopascal(rmse);
-    out << std::setw(10) << partKilopascal(protocol.corrected_rmse) << '\n';
+    std::vector<std::string> cells = {protocol.name};
+    for (const double rmse : protocol.rmse) cells.push_back(inKilopascals(rmse, kDecimals));
+    cells.push_back(inKilopascals(protocol.corrected_rmse, kDecimals));
+    table.row(cells);
   }
+  return "RMSE [kPa] of means over half a second; each protocol was predicted without it\n" + table.text();
 }
 
 }  // namespace
 
 std::string historyTable(const std::vector<calibration::HistoryScore::Part>& parts) {
   if (parts.empty()) return "";
-  std::ostringstream out;
-  out << "RMSE [kPa] of the static answer and with the history, by part of the readings\n";
-  head(out, "readings");
-  out << std::setw(10) << "static" << std::setw(10) << "history" << std::setw(14) << "within 1 dev"
-      << std::setw(12) << "number" << '\n';
-  for (const auto& part : parts) {
-    head(out, part.name);
-    out << std::setw(10) << partKilopascal(part.static_rmse) << std::setw(10) << partKilopascal(part.rmse)
-        << std::setw(12) << settings::percentText(part.within_one_deviation) << std::setw(12) << part.readings
-        << '\n';
-  }
-  return out.str();
+  TextTable table({"readings", "static", "history", "within 1 dev", "number"});
+  for (const auto& part : parts)
+    table.row({part.name, inKilopascals(part.static_rmse, kDecimals), inKilopascals(part.rmse, kDecimals),
+               settings::percentText(part.within_one_deviation), std::to_string(part.readings)});
+  return "RMSE [kPa] of the static answer and with the history, by part of the readings\n" + table.text();
 }
 
 std::string historyChoiceText(const calibration::HistoryScore& score) {
-  std::ostringstream out;
-  out << score.choice << '\n';
-  if (!score.protocols.empty()) protocolTable(out, score.protocols);
-  return out.str();
+  return score.choice + '\n' + (score.protocols.empty() ? "" : protocolTable(score.protocols));
 }
 
 std::string historyText(const calibration::Calibration& calibration) {
   const calibration::HistoryScore& score = calibration.scores.history;
   if (score.choice.empty()) return "";
-  std::ostringstream out;
-  out << historyChoiceText(score);
-  if (!score.parts.empty()) out << "Protocols that were left out. " << historyTable(score.parts);
-  return out.str();
+  return historyChoiceText(score) +
+         (score.parts.empty() ? "" : "Protocols that were left out. " + historyTable(score.parts));
 }
 
 std::string temperatureText(const calibration::Calibration& calibration) {
   const calibration::TemperatureScore& score = calibration.scores.temperature;
   if (score.choice.empty()) return "";
-  std::ostringstream out;
-  out << score.choice << '\n';
-  if (calibration.temperature.present()) {
-    out << "Tables, scores and history are those of "
-        << settings::roundedText(calibration.temperature.reference, 3) << " degrees Celsius.\n";
+  std::string text = score.choice + '\n';
+  if (calibration.temperature.present())
+    text += "Tables, scores and history are those of " +
+            settings::roundedText(calibration.temperature.reference, 3) + " degrees Celsius.\n";
+  if (score.groups.empty()) return text;
+  TextTable table({"left out", "without temperature", "with"});
+  for (const auto& group : score.groups)
+    table.row({group.name, inKilopascals(group.without, kDecimals), inKilopascals(group.with, kDecimals)});
+  return text +
+         "RMSE [kPa] of means over half a second; each protocol and recording was predicted without it\n" +
+         table.text();
+}
+
+std::string sessionText(const calibration::SessionScore& score) {
+  if (score.choice.empty()) return "";
+  if (score.sessions.empty()) return score.choice + '\n';
+  TextTable table({"session", "static", "tared", "trained and tared", "number"});
+  for (const auto& session : score.sessions)
+    table.row({session.name, inKilopascals(session.rmse[0], kDecimals),
+               inKilopascals(session.rmse[1], kDecimals), inKilopascals(session.rmse[2], kDecimals),
+               std::to_string(session.readings)});
+  return score.choice + "\nRMSE [kPa] after the rest at the start; each session was predicted without it\n" +
+         table.text();
+}
+
+Json sessionJson(const calibration::Calibration& calibration) {
+  const calibration::SessionScore& score = calibration.scores.session;
+  if (score.choice.empty()) return nullptr;
+  Json sessions = Json::array();
+  for (const auto& session : score.sessions) {
+    sessions.push_back({{"session", session.name},
+                        {"count", session.readings},
+                        {"static_rmse", session.rmse[0]},
+                        {"tared_rmse", session.rmse[1]},
+                        {"trained_and_tared_rmse", session.rmse[2]}});
   }
-  if (score.groups.empty()) return out.str();
-  out << "RMSE [kPa] of means over half a second; each protocol and recording was predicted without it\n";
-  head(out, "left out");
-  out << std::setw(20) << "without temperature" << std::setw(10) << "with" << '\n';
-  for (const auto& group : score.groups) {
-    head(out, group.name);
-    out << std::setw(20) << partKilopascal(group.without) << std::setw(10) << partKilopascal(group.with)
-        << '\n';
-  }
-  return out.str();
+  const calibration::SessionZero& zero = calibration.session_zero;
+  return {{"choice", score.choice},
+          {"tare_expected", zero.expected()},
+          {"tables_trained_with_zeros", zero.tare == calibration::SessionTare::kTrained},
+          {"rmse_without", zero.expected() ? Json(zero.rmse_without) : Json(nullptr)},
+          {"rmse", zero.expected() ? Json(zero.rmse) : Json(nullptr)},
+          {"sessions", sessions}};
 }
 
 Json temperatureJson(const calibration::Calibration& calibration) {

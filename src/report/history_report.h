@@ -7,28 +7,24 @@
 
 namespace fsr::report {
 
-/// Tables for the terminal: what was chosen as the model of the sheet's memory and why, the errors on
-/// protocols that were left out, and errors by direction and by time since the last reversal. "" if no model
-/// was asked for.
-std::string historyText(const calibration::Calibration& calibration);
+// What training chose beside the tables, and why: the tare at the start of a session, the model of the
+// temperature, and that of the sheet's memory. The texts are for the terminal, "" where nothing was asked
+// for; the JSON is null there. Numbers of JSON are SI.
 
-/// What was chosen and why, and the errors of each family on each protocol.
-std::string historyChoiceText(const calibration::HistoryScore& score);
+std::string sessionText(const calibration::SessionScore& score);
+Json sessionJson(const calibration::Calibration& calibration);
 
-/// A table of errors of the static answer and with a model of the sheet's memory; "" if there are none.
-std::string historyTable(const std::vector<calibration::HistoryScore::Part>& parts);
-
-/// Likewise what was chosen as the model of the temperature; "" without a thermometer or if none was asked
-/// for.
 std::string temperatureText(const calibration::Calibration& calibration);
-
-/// The model of the temperature and its scores; null where temperatureText() is "".
 Json temperatureJson(const calibration::Calibration& calibration);
 
-/// The errors of each family on each protocol that was left out [Pa].
-Json historyProtocolsJson(const calibration::HistoryScore& score);
-
-/// The model and its scores; null if no model was asked for. Numbers are SI.
+/// The choice with the errors on protocols that were left out, and errors by direction and by time since the
+/// last reversal.
+std::string historyText(const calibration::Calibration& calibration);
 Json historyJson(const calibration::Calibration& calibration);
+/// The choice with the errors of each family on each protocol.
+std::string historyChoiceText(const calibration::HistoryScore& score);
+Json historyProtocolsJson(const calibration::HistoryScore& score);
+/// A table of errors of the static answer and with a model of the sheet's memory; "" if there are none.
+std::string historyTable(const std::vector<calibration::HistoryScore::Part>& parts);
 
 }  // namespace fsr::report

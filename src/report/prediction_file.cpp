@@ -1,7 +1,7 @@
 #include "report/prediction_file.h"
 
+#include "report/members_yaml.h"
 #include "settings/settings.h"
-#include "settings/yaml_text.h"
 #include "simulation/effects/effect_library.h"
 
 namespace fsr::report {
@@ -10,16 +10,10 @@ namespace {
 
 const settings::Range kAnyNumber;  // includes .inf, e.g. the time constant of a drift that never ends
 
-std::string effectsText(const std::vector<simulation::EnabledEffect>& effects) {
-  std::string text;
-  for (const simulation::EnabledEffect& effect : effects) {
-    std::string values;
-    for (const auto& [name, value] : effect.values) {
-      values += (values.empty() ? "" : ", ") + name + ": " + settings::numberText(value);
-    }
-    text += (text.empty() ? "" : ", ") + effect.id + ": {" + values + "}";
-  }
-  return "{" + text + "}";
+Json effectsOf(const std::vector<simulation::EnabledEffect>& effects) {
+  Json all = Json::object();
+  for (const simulation::EnabledEffect& effect : effects) all[effect.id] = effect.values;
+  return all;
 }
 
 std::vector<simulation::EnabledEffect> readEffects(const settings::Settings& section) {
@@ -35,43 +29,19 @@ std::vector<simulation::EnabledEffect> readEffects(const settings::Settings& sec
   return effects;
 }
 
-std::string numbersText(const std::vector<double>& numbers) {
-  std::string text;
-  for (const double number : numbers) text += (text.empty() ? "" : ", ") + settings::numberText(number);
-  return "[" + text + "]";
-}
-
-// Nothing where an earlier version made the prediction: its hash covers no distribution.
-std::string distributionText(const discrepancy::Prediction& prediction) {
-  const discrepancy::ParameterSpread& spread = prediction.spread;
-  if (prediction.weights.empty()) return "";
-  std::string parameters;
+Json spreadOf(const discrepancy::ParameterSpread& spread) {
+  Json parameters = Json::array();
   for (std::size_t k = 0; k < spread.parameters.size(); ++k) {
     const auto& one = spread.parameters[k];
-    parameters += "\n    - {effect: " + std::to_string(one.effect) + ", name: " + one.name +
-                  ", logarithmic: " + (one.logarithmic ? "true" : "false") +
-                  ", covariance: " + numbersText(spread.covariance[k]) + "}";
+    parameters.push_back({{"effect", one.effect},
+                          {"name", one.name},
+                          {"logarithmic", one.logarithmic},
+                          {"covariance", spread.covariance[k]}});
   }
-  return "weights: " + numbersText(prediction.weights) +
-         "\nspread:\n  cycles: " + std::to_string(spread.cycles) +
-         "\n  groups: " + std::to_string(spread.groups) +
-         "\n  between: " + settings::numberText(spread.between) +
-         "\n  parameters:" + (parameters.empty() ? " []" : parameters) + "\n";
-}
-
-std::string pacesText(const std::vector<dataset::CycleCourse>& paces) {
-  std::string text;
-  for (const dataset::CycleCourse& pace : paces)
-    text += "\n  - {speed: " + settings::numberText(pace.speed) +
-            ", dwell: " + settings::numberText(pace.dwell) + ", peak: " + settings::numberText(pace.peak) +
-            "}";
-  return text.empty() ? "" : "paces:" + text + "\n";
-}
-
-std::string readingsText(const std::vector<std::string>& readings) {
-  std::string text;
-  for (const std::string& sha256 : readings) text += "\n  - \"" + sha256 + "\"";
-  return text.empty() ? "" : "readings_sha256:" + text + "\n";
+  return {{"cycles", spread.cycles},
+          {"groups", spread.groups},
+          {"between", spread.between},
+          {"parameters", parameters}};
 }
 
 std::size_t readCount(const settings::Settings& file, const std::string& key) {
@@ -103,16 +73,25 @@ discrepancy::ParameterSpread readSpread(const settings::Settings& file, const di
 
 std::string predictionText(const FrozenPrediction& frozen) {
   const discrepancy::Prediction& prediction = frozen.prediction;
-  std::string rivals;
-  for (const auto& rival : prediction.rivals) rivals += "\n  - " + effectsText(rival);
+  Json rivals = Json::array(), paces = Json::array();
+  for (const auto& rival : prediction.rivals) rivals.push_back(effectsOf(rival));
+  for (const dataset::CycleCourse& pace : frozen.paces)
+    paces.push_back({{"speed", pace.speed}, {"dwell", pace.dwell}, {"peak", pace.peak}});
+  Json all = {{"verdict_sha256", frozen.verdict_sha256},
+              {"effects", effectsOf(prediction.effects)},
+              {"rivals", rivals},
+              {"size", Json::array({prediction.size.low, prediction.size.high})}};
+  // Nothing where an earlier version made the prediction: its hash covers no distribution.
+  if (!prediction.weights.empty()) {
+    all["weights"] = prediction.weights;
+    all["spread"] = spreadOf(prediction.spread);
+  }
+  if (!paces.empty()) all["paces"] = paces;
+  if (!frozen.readings_sha256.empty()) all["readings_sha256"] = frozen.readings_sha256;
+  all["hash"] = prediction.hash;
   return "# Frozen together with the verdict beside it. If this file is edited, the hash below no longer "
-         "fits.\n"
-         "verdict_sha256: \"" +
-         frozen.verdict_sha256 + "\"\neffects: " + effectsText(prediction.effects) +
-         "\nrivals:" + (rivals.empty() ? " []" : rivals) + "\nsize: [" +
-         settings::numberText(prediction.size.low) + ", " + settings::numberText(prediction.size.high) +
-         "]\n" + distributionText(prediction) + pacesText(frozen.paces) +
-         readingsText(frozen.readings_sha256) + "hash: \"" + prediction.hash + "\"\n";
+         "fits.\n" +
+         yamlText(all, kAllDigits);
 }
 
 FrozenPrediction readPrediction(const std::string& path) {

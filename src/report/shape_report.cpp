@@ -1,9 +1,6 @@
 #include "report/shape_report.h"
 
-#include <algorithm>
-#include <iomanip>
-#include <sstream>
-
+#include "report/text_table.h"
 #include "settings/number_text.h"
 
 namespace fsr::report {
@@ -35,56 +32,38 @@ std::string changeText(const compensation::ShapeModel& model, const compensation
 }
 
 std::string changeTable(const compensation::ShapeModel& model,
-                        const std::vector<calibration::CheckedMount>& mounts, int left) {
-  std::ostringstream out;
-  out << "\nChange of the bend along the sheet, from the first to the last column and row [1/m]; - = not "
-         "known\n"
-      << std::left << std::setw(left) << "mount" << std::setw(18) << "along a row" << std::setw(18)
-      << "along a column"
-      << "changes\n";
+                        const std::vector<calibration::CheckedMount>& mounts) {
+  TextTable table({"mount", "along a row", "along a column", "changes"}, {1, 2, 3});
   for (const auto& [mount, check] : mounts) {
     if (check.estimate.taxels == 0) continue;  // no estimate was made
-    out << std::setw(left) << mount.name << std::setw(18) << changeText(model, check.change.along_x)
-        << std::setw(18) << changeText(model, check.change.along_y) << (check.changes ? "yes" : "no") << '\n';
+    table.row({mount.name, changeText(model, check.change.along_x), changeText(model, check.change.along_y),
+               check.changes ? "yes" : "no"});
   }
-  out << calibration::fixedText(model) << "\n\n";
-  return out.str();
+  return "\nChange of the bend along the sheet, from the first to the last column and row [1/m]; - = not "
+         "known\n" +
+         table.text() + calibration::fixedText(model) + "\n\n";
 }
 
 }  // namespace
 
 std::string shapeText(const compensation::ShapeModel& model,
                       const std::vector<calibration::CheckedMount>& mounts) {
-  std::ostringstream out;
-  if (mounts.empty()) {
+  if (mounts.empty())
     return "How the sheet lies cannot be told: no bag starts with a rest before the first load\n";
-  }
-  std::size_t width = 6;
-  for (const auto& mount : mounts) width = std::max(width, mount.mount.name.size() + 2);
-  const auto left = static_cast<int>(width);
-  out << "How the sheet rests before the first load: principal curvature [1/m]\n"
-      << std::left << std::setw(left) << "mount" << std::right << std::setw(9) << "declared" << std::setw(9)
-      << "rests as" << std::setw(9) << "low" << std::setw(9) << "high"
-      << "  " << std::left << std::setw(10) << "verdict"
-      << "surfaces of training that agree\n";
+  TextTable table(
+      {"mount", "declared", "rests as", "low", "high", "verdict", "surfaces of training that agree"}, {5, 6});
+  std::string sentences;
   for (const auto& [mount, check] : mounts) {
-    const bool told = check.estimated;
-    const auto number = [&](double value) {
-      out << std::setw(9) << (told ? settings::fixedText(value, 2) : "-");
+    const auto number = [estimated = check.estimated](double value) {
+      return estimated ? settings::fixedText(value, 2) : "-";
     };
-    out << std::left << std::setw(left) << mount.name << std::right << std::setw(9)
-        << declaredCurvature(mount.surface);
-    number(check.estimate.curvature);
-    number(check.estimate.low);
-    number(check.estimate.high);
-    out << "  " << std::left << std::setw(10) << verdictName(check.verdict) << namesText(check.possible)
-        << '\n';
+    table.row({mount.name, declaredCurvature(mount.surface), number(check.estimate.curvature),
+               number(check.estimate.low), number(check.estimate.high), verdictName(check.verdict),
+               namesText(check.possible)});
+    if (check.verdict != ShapeVerdict::kAgrees) sentences += mount.name + ": " + check.sentence + '\n';
   }
-  out << changeTable(model, mounts, left);
-  for (const auto& [mount, check] : mounts) {
-    if (check.verdict != ShapeVerdict::kAgrees) out << mount.name << ": " << check.sentence << '\n';
-  }
-  return out.str();
+  return "How the sheet rests before the first load: principal curvature [1/m]\n" + table.text() +
+         changeTable(model, mounts) + sentences;
 }
 
 }  // namespace fsr::report

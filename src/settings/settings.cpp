@@ -184,6 +184,18 @@ std::vector<double> Settings::numbers(const std::string& key, const Range& range
   return values;
 }
 
+std::vector<std::vector<std::string>> Settings::lists(const std::string& key) const {
+  try {
+    if (has(key)) return node_->yaml[key].as<std::vector<std::vector<std::string>>>();
+  } catch (const YAML::Exception&) {  // it is something else
+  }
+  throw error(key, "must be a list of lists");
+}
+
+double Settings::numberOrNull(const std::string& key, const Range& range) const {
+  return has(key) && node_->yaml[key].IsNull() ? NAN : number(key, range);
+}
+
 Settings Settings::section(const std::string& key) const {
   if (!has(key)) throw error(key, "give a mapping");
   if (!node_->yaml[key].IsMap()) throw error(key, "must be a mapping");

@@ -40,6 +40,10 @@ class Settings {
   std::vector<double> numbers(const std::string& key, const Range& range) const;
   /// A list of texts.
   std::vector<std::string> texts(const std::string& key) const;
+  /// A list of lists of texts.
+  std::vector<std::vector<std::string>> lists(const std::string& key) const;
+  /// A number, or NaN where the key is null.
+  double numberOrNull(const std::string& key, const Range& range) const;
   /// A nested mapping.
   Settings section(const std::string& key) const;
   /// A list of mappings.

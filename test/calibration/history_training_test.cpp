@@ -16,6 +16,7 @@
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "fsr_pressure_map/calibration/calibrator.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "support/file_complaint.h"
 #include "support/memory_rig.h"
 
 namespace fsr::calibration {
@@ -221,23 +222,17 @@ TEST_F(HistoryFile, CannotBeMerged) {
 TEST_F(HistoryFile, IsRefusedWhereItsModelCannotBeUsed) {
   const Calibration whole = trained(rigWith(0.08, 0));
   const auto complaint = [&](const std::function<void(Calibration&)>& spoil) {
-    Calibration spoiled = whole;
-    spoil(spoiled);
-    saveCalibration(spoiled, path_);
-    try {
-      loadCalibration(path_);
-    } catch (const settings::InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string("accepted");
+    return test_support::fileComplaint(whole, path_, spoil);
   };
   EXPECT_EQ(complaint([](Calibration&) {}), "accepted");
   EXPECT_NE(complaint([](Calibration& c) { c.history.radius.front() = -1; }).find("/history/radius"),
             std::string::npos);
-  EXPECT_NE(complaint([](Calibration& c) { c.history.play_weight.pop_back(); }).find("weights"),
+  EXPECT_NE(complaint([](Calibration& c) { c.history.play_weight.pop_back(); }).find("/history/play_weight"),
             std::string::npos);
   EXPECT_NE(complaint([](Calibration& c) { c.history.knot.back() *= 2; }).find("evenly"), std::string::npos);
-  EXPECT_NE(complaint([](Calibration& c) { c.history.correction[1] = NAN; }).find("finite"),
+  EXPECT_NE(complaint([](Calibration& c) {
+              c.history.correction[1] = NAN;
+            }).find("/history/correction has a value of .nan"),
             std::string::npos);
 }
 

@@ -14,6 +14,7 @@
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "fsr_pressure_map/calibration/calibrator.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "support/file_complaint.h"
 #include "support/small_calibration.h"
 
 namespace fsr::calibration {
@@ -26,20 +27,9 @@ class HostileFile : public testing::Test {
  protected:
   ~HostileFile() override { std::remove(path_.c_str()); }
 
-  // The error message after the path, or "accepted".
-  std::string complaint() const {
-    try {
-      loadCalibration(path_, CalibrationParts::kAll);
-    } catch (const settings::InputError& error) {
-      return std::string(error.what()).substr(path_.size() + 2);
-    }
-    return "accepted";
-  }
+  std::string complaint() const { return test_support::fileComplaint(path_); }
   std::string complaintAbout(const std::function<void(Calibration&)>& spoil) const {
-    Calibration calibration = sound();
-    spoil(calibration);
-    saveCalibration(calibration, path_);
-    return complaint();
+    return test_support::fileComplaint(sound(), path_, spoil);
   }
   static Calibration sound() {
     Calibration calibration = test_support::smallCalibration(kSize, {0.0, 10.0}, "A", kFullScale);
@@ -69,7 +59,7 @@ TEST_F(HostileFile, ContentThatDoesNotFitIsRefused) {
   EXPECT_EQ(complaintAbout([](Calibration& c) {
               c.tables.classes[1].curvature = {1, 2, 3};
             }),
-            "its /tables/curvature does not fit /tables/surfaces and the matrix");
+            "its /tables/curvature does not fit its surfaces and the matrix");
   EXPECT_EQ(complaintAbout([](Calibration& c) { c.tables.classes[1].curvature = {NAN}; }),
             "its /tables/curvature is not finite");
   EXPECT_EQ(complaintAbout([](Calibration& c) {
@@ -79,11 +69,11 @@ TEST_F(HostileFile, ContentThatDoesNotFitIsRefused) {
   EXPECT_EQ(complaintAbout([](Calibration& c) {
               c.tables.rule.law = {{0, 9, 5}, {1, 1, 1}, {0, 0, 0}};
             }),
-            "its knots of /rule/law do not ascend");
+            "its /rule/law has knots that do not ascend");
   EXPECT_EQ(complaintAbout([](Calibration& c) {
               c.tables.rule.unseen = {{0, NAN}, {1, 1}};
             }),
-            "its knots of /rule/unseen do not ascend");
+            "its /rule/unseen has knots that do not ascend");
   EXPECT_EQ(complaintAbout([](Calibration& c) {
               compensation::TrainingStatistics statistics;
               statistics.classes = c.tables.classes;
@@ -91,7 +81,7 @@ TEST_F(HostileFile, ContentThatDoesNotFitIsRefused) {
               statistics.sections = 1;
               c.statistics = std::make_shared<const compensation::TrainingStatistics>(statistics);
             }),
-            "its /statistics taxels or sections do not fit the matrix");
+            "its /statistics/taxels or sections do not fit the matrix");
 }
 
 TEST_F(HostileFile, AnOversizedShapeAllocatesNothing) {

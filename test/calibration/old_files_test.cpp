@@ -1,8 +1,12 @@
 // One file of every schema is kept in test/data and must load.
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <cstdio>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 
 #include "compensation/training_statistics.h"
 #include "fsr_pressure_map/calibration/calibration_file.h"
@@ -22,7 +26,7 @@ TEST(OldCalibrationFiles, AllLoadAndCalibrate) {
     EXPECT_FALSE(calibration.statistics->cells.empty()) << entry.path();
     ++files;
   }
-  EXPECT_GE(files, 2);
+  EXPECT_GE(files, 3);
 }
 
 TEST(OldCalibrationFiles, SchemaOneIsReadAsBefore) {
@@ -48,6 +52,27 @@ TEST(OldCalibrationFiles, SchemaTwoIsReadAsBefore) {
   EXPECT_FLOAT_EQ(calibration.tables.table(1, 1).log_weight.at(100), 1.60943794f);
   EXPECT_FLOAT_EQ(calibration.tables.table(1, 1).pressure.at(100), 180000.0f);
   EXPECT_NEAR(calibration.scores.unseen.rmse, 28211.1804, 1e-4);
+}
+
+std::string bytesOf(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// Of version 0.2.0, with every part but a correction and a shape.
+TEST(OldCalibrationFiles, SchemaThreeIsWrittenAgainByteForByte) {
+  const Calibration calibration = loadCalibration(kFolder + "schema_3.h5", CalibrationParts::kAll);
+  EXPECT_TRUE(calibration.history.present());
+  EXPECT_TRUE(calibration.session_zero.expected());
+  EXPECT_TRUE(calibration.temperature.present());
+  EXPECT_TRUE(calibration.budget.intervals.scale.present());
+  EXPECT_EQ(calibration.provenance.tool_version, "0.2.0");
+  EXPECT_EQ(calibration.scores.session.sessions.size(), 5u);
+  EXPECT_NEAR(calibration.budget.combined[1], 8650, 1);
+  const std::string again = testing::TempDir() + "schema_3_" + std::to_string(::getpid()) + ".h5";
+  saveCalibration(calibration, again);
+  EXPECT_TRUE(bytesOf(again) == bytesOf(kFolder + "schema_3.h5"));
+  std::remove(again.c_str());
 }
 
 }  // namespace

@@ -18,6 +18,7 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "fsr_pressure_map/simulation/simulate.h"
 #include "simulation/read_settings.h"
+#include "support/file_complaint.h"
 #include "support/simulated_rig.h"
 
 namespace fsr::calibration {
@@ -262,21 +263,16 @@ TEST_F(TemperatureFile, HasASchemaOfItsOwn) {
 TEST_F(TemperatureFile, IsRefusedWhereItsModelCannotBeUsed) {
   const Calibration whole = trained(recordingsOf(warmRig()));
   const auto complaint = [&](const std::function<void(compensation::TemperatureModel&)>& spoil) {
-    Calibration spoiled = whole;
-    spoil(spoiled.temperature);
-    saveCalibration(spoiled, path_);
-    try {
-      loadCalibration(path_);
-    } catch (const settings::InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string("accepted");
+    return test_support::fileComplaint(whole, path_, [&](Calibration& c) { spoil(c.temperature); });
   };
   EXPECT_EQ(complaint([](auto&) {}), "accepted");
-  EXPECT_NE(complaint([](auto& model) { model.sensitivity = 7; }).find("/temperature has a sensitivity of 7"),
+  EXPECT_NE(
+      complaint([](auto& model) { model.sensitivity = 7; }).find("/temperature/sensitivity has a value of 7"),
+      std::string::npos);
+  EXPECT_NE(complaint([](auto& model) { model.lag = NAN; }).find("/temperature/lag has a value of .nan"),
             std::string::npos);
-  EXPECT_NE(complaint([](auto& model) { model.lag = NAN; }).find("a lag of nan"), std::string::npos);
-  EXPECT_NE(complaint([](auto& model) { model.high = -20; }).find("a high of -20"), std::string::npos);
+  EXPECT_NE(complaint([](auto& model) { model.high = -20; }).find("/temperature/high has a value of -20"),
+            std::string::npos);
 }
 
 // Of a live map.

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "report/calibration_report.h"
+#include "support/squeezed.h"
 
 namespace fsr::report {
 namespace {
@@ -44,26 +45,22 @@ ErrorBudget example(std::uint64_t units) {
 }
 
 bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
+  return test_support::squeezed(text).find(part) != std::string::npos;
 }
 
 TEST(BudgetReport, SaysWhatIsInsideWhatIsAddedAndWhatIsNotKnown) {
   const std::string text = budgetText(example(24), kLayout);
-  EXPECT_TRUE(
-      has(text, "loading and unloading            2.00     3.00     5.00  measured here, inside: half"))
-      << text;
-  EXPECT_TRUE(
-      has(text, "in a socket                         -        -        -  not assessed: shear, compliance"))
-      << text;
-  EXPECT_TRUE(has(text, "+ mount                          4.00     3.00     8.00\n")) << text;
+  EXPECT_TRUE(has(text, "loading and unloading 2.00 3.00 5.00 measured here, inside: half")) << text;
+  EXPECT_TRUE(has(text, "in a socket - - - not assessed: shear, compliance")) << text;
+  EXPECT_TRUE(has(text, "+ mount 4.00 3.00 8.00\n")) << text;
   EXPECT_FALSE(has(text, "+ loading")) << text;
-  EXPECT_TRUE(has(text, "combined, k = 2                 10.00    10.00    20.00\n")) << text;
+  EXPECT_TRUE(has(text, "combined, k = 2 10.00 10.00 20.00\n")) << text;
 }
 
 TEST(BudgetReport, RefusesAnIntervalThatTheUnitsDoNotAllow) {
   const std::string enough = budgetText(example(24), kLayout);
   EXPECT_FALSE(has(enough, "No 95 % interval")) << enough;
-  EXPECT_TRUE(has(enough, "2.25    95.1 %")) << enough;
+  EXPECT_TRUE(has(enough, "2.25 95.1 %")) << enough;
   const std::string few = budgetText(example(10), kLayout);
   EXPECT_TRUE(has(few, "No 95 % interval from 10 mounts: they allow at most 90.9 %, and 95 % needs 19."))
       << few;
@@ -71,8 +68,8 @@ TEST(BudgetReport, RefusesAnIntervalThatTheUnitsDoNotAllow) {
 
 TEST(BudgetReport, ShowsWhatTheDeviationOfTheMapIsMultipliedBy) {
   const std::string text = budgetText(example(24), kLayout);
-  EXPECT_TRUE(has(text, "200-400                           1.20    61.0 %    68.5 %\n")) << text;
-  EXPECT_TRUE(has(text, "all                                  -    62.0 %    69.0 %\n")) << text;
+  EXPECT_TRUE(has(text, "200-400 1.20 61.0 % 68.5 %\n")) << text;
+  EXPECT_TRUE(has(text, "all - 62.0 % 69.0 %\n")) << text;
   ErrorBudget without = example(3);
   without.intervals.scale = {};
   EXPECT_TRUE(has(budgetText(without, kLayout), "that of the tables, from too few mounts for a factor"))

@@ -165,7 +165,7 @@ TEST(ConfirmationText, SaysPassedOrNotAndTheRival) {
               {"Not confirmed: The loop", "relative to the prediction: 0.40", "more: creep"});
   expectHolds(
       confirmationYaml(confirmation, "abc", {{"new.bag", "def", 10, 0}}),
-      {"passed: false", "size: 0.4", "best_rival: creep", "prediction_hash: \"abc\"", "sha256: \"def\""});
+      {"passed: false", "size: 0.4", "best_rival: creep", "prediction_hash: abc", "sha256: def"});
 }
 
 }  // namespace

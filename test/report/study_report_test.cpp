@@ -6,6 +6,7 @@
 #include <limits>
 #include <sstream>
 
+#include "support/squeezed.h"
 #include "support/synthetic_recording.h"
 
 namespace {
@@ -105,10 +106,10 @@ TEST(StudyText, ShowsTheHistoryBesideTheStaticAnswerAndByProtocol) {
   result.splits.push_back({"leave_protocol_out", "by protocol", {"slow"}, {score}});
   result.history.choice = "History: plays, the best on protocols that were left out.";
   result.history.protocols = {{"slow", {8e3, 4e3, 7e3, 5e3}, 6e3}};
-  const std::string text = fsr::report::studyText(result);
-  EXPECT_TRUE(contains(text, "leave_protocol_out: by protocol\n  history ")) << text;
+  const std::string text = test_support::squeezed(fsr::report::studyText(result));
+  EXPECT_TRUE(contains(text, "leave_protocol_out: by protocol\n history ")) << text;
   EXPECT_TRUE(contains(text, "History: plays, the best")) << text;
-  EXPECT_TRUE(contains(text, "8.00      4.00      7.00      5.00      6.00")) << text;
+  EXPECT_TRUE(contains(text, "8.00 4.00 7.00 5.00 6.00")) << text;
   EXPECT_FALSE(contains(text, "not assessable")) << text;
   EXPECT_TRUE(contains(fsr::report::studyJson(result), "\"correction_alone\": 6000")) << text;
   EXPECT_TRUE(
@@ -129,13 +130,13 @@ TEST(StudyText, ShowsTheErrorOfTheMapAgainstTheErrorOfTheCurvature) {
   step.error.absolute = 2;
   step.rmse = 31e3;
   result.curvature_errors = {{"interpolated", "Interpolated", {shorter, right, step}}};
-  const std::string text = fsr::report::studyText(result);
+  const std::string text = test_support::squeezed(fsr::report::studyText(result));
   EXPECT_TRUE(contains(text,
                        "RMSE [kPa]\n"
-                       "  curvature is             -5 %    right   +2 1/m\n"
-                       "  interpolated             25.0     20.0     31.0\n"))
+                       " curvature is -5 % right +2 1/m\n"
+                       " interpolated 25.0 20.0 31.0\n"))
       << text;
-  EXPECT_TRUE(contains(text, "  interpolated               75        -        -\n")) << text;
+  EXPECT_TRUE(contains(text, " interpolated 75 - -\n")) << text;
   const auto tables = fsr::report::studyTables(result);
   EXPECT_TRUE(
       contains(tables.at("curvature_errors.csv"), "\"interpolated\",\"Interpolated\",-5,0,3.5,25,8,6,"))

@@ -1,4 +1,4 @@
-#include "report/training_summary.h"
+#include "report/calibration_report.h"
 
 #include <gtest/gtest.h>
 

@@ -46,20 +46,30 @@ class VerdictOnDisk : public testing::Test {
 TEST(VerdictText, IsExactlyAsDocumented) {
   const std::string expected = R"(verdict: named
 effects:
-  - id: hysteresis
-    parameters: [{name: loop_width, value: 0.062, unit: fraction of full scale, interval: [0.058, 0.067]}]
-    evidence: {z: 14.1, share_of_ceiling: 0.93}
+  - {id: hysteresis, parameters: [{name: loop_width, value: 0.062, unit: fraction of full scale, interval: [0.058, 0.067]}], evidence: {z: 14.1, share_of_ceiling: 0.93}}
 credible_set: [[hysteresis]]
 depends_on: [direction, pressure]
 p: 0.0033
 at_map: 20000
 least_gap: 1240
-in_use: [{situation: ramp, before: 21000, after: 5000}, {situation: stance, before: 18000, after: 4000}, {situation: standing, before: 9000, after: null}]
-smallest_seen: [{id: hysteresis, at_map: 1300}, {id: creep, at_map: 2400}, {id: wear, at_map: null}]
+in_use:
+  - {situation: ramp, before: 21000, after: 5000}
+  - {situation: stance, before: 18000, after: 4000}
+  - {situation: standing, before: 9000, after: null}
+smallest_seen:
+  - {id: hysteresis, at_map: 1300}
+  - {id: creep, at_map: 2400}
+  - {id: wear, at_map: null}
 too_small: []
-scatter: [{part: cycle_gain, size: 0.012, unit: share, interval: [0.009, 0.016], at_map: 3100}, {part: cycle_offset, size: 0, unit: share of full scale, interval: [0, 0.0004], at_map: 0}, {part: wandering, size: 0.0011, unit: share of full scale, interval: [0.0008, 0.0014], at_map: 650}]
-asked: [{id: crosstalk, answer: not_identifiable}]
-not_identifiable: [{id: crosstalk, experiment: uneven_load}, {id: wear, experiment: many_cycles}]
+scatter:
+  - {part: cycle_gain, size: 0.012, unit: share, interval: [0.009, 0.016], at_map: 3100}
+  - {part: cycle_offset, size: 0, unit: share of full scale, interval: [0, 0.0004], at_map: 0}
+  - {part: wandering, size: 0.0011, unit: share of full scale, interval: [0.0008, 0.0014], at_map: 650}
+asked:
+  - {id: crosstalk, answer: not_identifiable}
+not_identifiable:
+  - {id: crosstalk, experiment: uneven_load}
+  - {id: wear, experiment: many_cycles}
 where: {taxels: [0, 3], conditions: [flat, cylinder_7cm], pressure: [50000, 400000], direction: both, time: all}
 gap: {before: 0.031, after: 0.008, floor: 0.006, floor_bracket: [0.006, 0.0071], closed: 0.92, closed_interval: [0.9, 0.94], unit: fraction of full scale, held_out_by: [cycles, condition], surfaces: [{surface: flat, before: 0.03, after: 0.007}, {surface: cylinder_7cm, before: 0.032, after: 0.009}], covered: [{surface: flat, pressure: [0, 620000]}, {surface: cylinder_7cm, pressure: [0, 615000]}], left_out: 12}
 hold_out:
@@ -70,6 +80,22 @@ recompute: rosrun fsr_pressure_map simulate --gap found/verdict.yaml --drive 1_f
   const std::string text = verdictText(exampleDiscrepancy());
   const std::size_t begin = text.find("verdict:"), end = text.find("next_experiment:");
   EXPECT_EQ(text.substr(begin, end - begin), expected);
+}
+
+// As versions up to 0.2.0 wrote it: one line a list, effects in block style, hashes in quotes.
+TEST_F(VerdictOnDisk, ReadsTheLayoutOfEarlierVersions) {
+  std::string text = verdictText(exampleDiscrepancy());
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    const std::size_t at = text.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    text.replace(at, from.size(), to);
+  };
+  replace("- {id: hysteresis, parameters", "- id: hysteresis\n    parameters");
+  replace(", evidence: {z: 14.1, share_of_ceiling: 0.93}}", "\n    evidence: {z: 14.1}");
+  replace("asked:\n  - {id: crosstalk, answer: not_identifiable}", "asked: [{id: crosstalk, answer: none}]");
+  write(text);
+  EXPECT_EQ(readVerdict(path_).effects, (std::vector<std::string>{"hysteresis"}));
+  EXPECT_EQ(readVerdict(path_).gap_after, 0.008);
 }
 
 TEST(VerdictText, HasNullForAbsentValues) {
@@ -147,23 +173,23 @@ TEST_F(VerdictOnDisk, NeedsNoneOfTheAddedFields) {
 
 TEST_F(VerdictOnDisk, RefusalsNameTheFieldAndWhatWouldBeRight) {
   const std::vector<std::vector<std::string>> cases = {
-      {"verdict: named", "verdict: sure", "sure", "not_identifiable"},
-      {"verdict: named", "verdikt: named", "verdikt", "unknown here"},
+      {"verdict: named", "verdict: sure", "verdict is sure", "not_identifiable"},
+      {"verdict: named", "verdict: named\nverdikt: named", "verdikt is not a known setting"},
       {"seed: 1", "# seed: 1", "seed is missing"},
-      {"seed: 1", "seed: many", "seed must be a whole number"},
-      {"- id: hysteresis", "- id: histeresis", "effects[0].id", "histeresis"},
+      {"seed: 1", "seed: many", "seed is many, but must be a whole number"},
+      {"- {id: hysteresis,", "- {id: histeresis,", "effects[0].id", "histeresis"},
       {"[[hysteresis]]", "[[magic]]", "credible_set", "magic"},
-      {"[[hysteresis]]", "hysteresis", "credible_set must be a list of lists"},
-      {"hold_out:", "held_out:", "held_out", "unknown here"},
-      {"cycles: [[946684875.100000000, 946684950.000000000]]", "cycles: 3", "hold_out[0].cycles", "stamps"},
+      {"[[hysteresis]]", "hysteresis", "credible_set", "must be a list of lists"},
+      {"hold_out:", "held_out:", "hold_out is missing"},
+      {"cycles: [[946684875.100000000, 946684950.000000000]]", "cycles: 3", "hold_out[0].cycles", "lists"},
       {"[946684875.100000000, 946684950.000000000]", "[946684950.0, 946684875.1]", "hold_out[0].cycles",
        "ends before"},
       {"[946684875.100000000, ", "[now, ", "hold_out[0].cycles", "stamps"},
       {"[946684875.100000000, ", "[99999999999.0, ", "hold_out[0].cycles", "stamps"},
-      {"before: 0.031", "before: large", "gap.before", "number or null"},
-      {"{surface: flat, before: 0.03,", "{surface: flat, before: low,", "gap.surfaces", "before and after"},
-      {"show_opened: 3", "show_opened: -3", "inputs[1].show_opened", "0 or more"},
-      {"sha256: \"bb", "sha256: \"b", "inputs[1].sha256", "64"},
+      {"before: 0.031", "before: large", "gap.before", "number"},
+      {"{surface: flat, before: 0.03,", "{surface: flat, before: low,", "gap.surfaces[0].before", "number"},
+      {"show_opened: 3", "show_opened: -3", "inputs[1].show_opened", "0 to"},
+      {"sha256: bb", "sha256: b", "inputs[1].sha256", "64"},
   };
   for (const auto& parts : cases) {
     const std::string said = complaint(parts[0], parts[1]);

@@ -2,8 +2,7 @@
 
 #include "fsr_pressure_map/calibration/calibration.h"
 #include "fsr_pressure_map/calibration/calibration_file.h"
-#include "hdf5/reader.h"
-#include "hdf5/writer.h"
+#include "hdf5/members.h"
 
 namespace fsr::calibration {
 
@@ -35,12 +34,11 @@ namespace fsr::calibration {
 //                  surfaces, used, scale, history [taxels], rest [surfaces x taxels] (absent in earlier
 //                  files)
 //     /coverage    scans, cycles [classes x bins x 2], totals, pressure, thin
-//     /scores      see scores_hdf5 (absent where not asked for)
+//     /scores      see scoresMembers() (absent where not asked for)
 //     /budget      pressure, held_out, combined [3]; names, sources, parts, notes [lines]; standard, added
 //                  [lines x 3]; /budget/intervals with attribute unit_left_out; units, factor, covered [bins
-//                  and all x 2], by_direction [2 x 2], by_taxel [2 x taxels], scale_pressure, scale_factor [bins],
-//                  scale_covered [bins and all x 2] (absent without scores and in
-//                  earlier files)
+//                  and all x 2], by_direction [2 x 2], by_taxel [2 x taxels], scale_pressure, scale_factor
+//                  [bins], scale_covered [bins and all x 2] (absent without scores and in earlier files)
 //     /statistics  surfaces, curvature of the classes; first [taxels x classes x sections + 1] and the rows
 //                  code, count, sum that it points into; square_high, square_low of the rows with count > 1
 //
@@ -61,44 +59,23 @@ void writeCalibration(const Calibration& calibration, hdf5::Writer& writer);
 Calibration readCalibration(const hdf5::Reader& reader, std::uint64_t schema, CalibrationParts parts,
                             const regression::RegressorTable* regressors);
 
-// Each part has its own source file.
-void writeModel(const Calibration& calibration, hdf5::Writer& writer);
-void readModel(const hdf5::Reader& reader, Calibration& calibration);
-void writeCorrection(const Correction& correction, hdf5::Writer& writer);
-Correction readCorrection(const hdf5::Reader& reader, matrix::MatrixSize size);
-void writeTables(const compensation::CurvatureTables& tables, hdf5::Writer& writer);
-compensation::CurvatureTables readTables(const hdf5::Reader& reader, matrix::MatrixSize size);
-void writeRule(const compensation::CurvatureTables& tables, hdf5::Writer& writer);
-void readRule(const hdf5::Reader& reader, compensation::CurvatureTables& tables);
-void writeHistory(const compensation::HistoryModel& model, hdf5::Writer& writer);
-compensation::HistoryModel readHistory(const hdf5::Reader& reader);
-void writeHistoryScores(const HistoryScore& score, hdf5::Writer& writer);
-HistoryScore readHistoryScores(const hdf5::Reader& reader);
-void writeSessionZero(const SessionZero& zero, hdf5::Writer& writer);
-SessionZero readSessionZero(const hdf5::Reader& reader);
-void writeSessionScores(const SessionScore& score, hdf5::Writer& writer);
-SessionScore readSessionScores(const hdf5::Reader& reader);
-void writeTemperature(const compensation::TemperatureModel& model, hdf5::Writer& writer);
-compensation::TemperatureModel readTemperature(const hdf5::Reader& reader);
-void writeTemperatureScores(const TemperatureScore& score, hdf5::Writer& writer);
-TemperatureScore readTemperatureScores(const hdf5::Reader& reader);
-void writeShape(const compensation::ShapeModel& model, hdf5::Writer& writer);
-compensation::ShapeModel readShape(const hdf5::Reader& reader, const matrix::Layout& layout,
-                                   std::uint16_t full_scale);
-void writeBudget(const ErrorBudget& budget, hdf5::Writer& writer);
-ErrorBudget readBudget(const hdf5::Reader& reader, matrix::MatrixSize size);
-void writeCoverage(const dataset::Coverage& coverage, hdf5::Writer& writer);
-dataset::Coverage readCoverage(const hdf5::Reader& reader,
-                               const std::vector<dataset::CurvatureClass>& classes);
-void writeScores(const CalibrationScores& scores, hdf5::Writer& writer);
-CalibrationScores readScores(const hdf5::Reader& reader, const std::vector<dataset::CurvatureClass>& classes);
-void writeStatistics(const compensation::TrainingStatistics& statistics, hdf5::Writer& writer);
+// The members of each part, written or read by the same list (see hdf5::Members). What is absent stays as it
+// is.
+void ruleMembers(hdf5::Members& file, compensation::CurvatureTables& tables);
+void historyMembers(hdf5::Members& file, compensation::HistoryModel& model);
+void sessionMembers(hdf5::Members& file, SessionZero& zero);
+void temperatureMembers(hdf5::Members& file, compensation::TemperatureModel& model);
+void shapeMembers(hdf5::Members& file, compensation::ShapeModel& model);
+void coverageMembers(hdf5::Members& file, dataset::Coverage& coverage,
+                     const std::vector<dataset::CurvatureClass>& classes);
+void scoresMembers(hdf5::Members& file, CalibrationScores& scores,
+                   const std::vector<dataset::CurvatureClass>& classes);
+void budgetMembers(hdf5::Members& file, ErrorBudget& budget, std::size_t taxels);
+void temperatureScoresMembers(hdf5::Members& file, TemperatureScore& score);
+void classesMembers(hdf5::Members& file, std::vector<dataset::CurvatureClass>& classes, std::size_t taxels);
+void tablesMembers(hdf5::Members& file, compensation::CurvatureTables& tables);
 /// `cells`: whether to read the sums too, not only the classes.
-compensation::TrainingStatistics readStatistics(const hdf5::Reader& reader, matrix::MatrixSize size,
-                                                bool cells);
-void writeClasses(const std::string& group, const std::vector<dataset::CurvatureClass>& classes,
-                  hdf5::Writer& writer);
-std::vector<dataset::CurvatureClass> readClasses(const std::string& group, matrix::MatrixSize size,
-                                                 const hdf5::Reader& reader);
+void statisticsMembers(hdf5::Members& file, compensation::TrainingStatistics& statistics, std::size_t taxels,
+                       bool cells);
 
 }  // namespace fsr::calibration

@@ -1,76 +1,237 @@
-#include "calibration/file/calibration_hdf5.h"
-#include "regression/regressors.h"
+#include <cmath>
 
+#include "calibration/file/calibration_hdf5.h"
+
+// The models beside the tables: curvature rule, history, session, temperature, shape.
 namespace fsr::calibration {
 
 namespace {
 
-constexpr char kModelGroup[] = "/model";
+constexpr double kLargestPressure = 1e9;  // [Pa]
+constexpr double kAboveZero = 1e-12;
 
-class ModelWriter : public regression::OptionWriter {
- public:
-  explicit ModelWriter(hdf5::Writer& writer) : writer_(writer) {}
-  void text(const std::string& name, const std::string& value) override {
-    writer_.attribute(kModelGroup, name, value);
+const hdf5::Names<compensation::BlendRule> kBlends = {{compensation::BlendRule::kNearest, "nearest"},
+                                                      {compensation::BlendRule::kKernel, "kernel"},
+                                                      {compensation::BlendRule::kInterpolate, "interpolate"},
+                                                      {compensation::BlendRule::kByName, "by_name"}};
+const hdf5::Names<SessionTare> kTares = {{SessionTare::kTablesAlone, "tables_alone"},
+                                         {SessionTare::kTrained, "trained"}};
+const hdf5::Names<compensation::FieldFamily> kFamilies = {{compensation::FieldFamily::kGaussian, "gaussian"},
+                                                          {compensation::FieldFamily::kMatern, "matern"}};
+
+// Values at ascending knots. `name`: of the columns together.
+void requireKnots(const hdf5::Members& file, const std::string& name, const std::vector<double>& knots,
+                  const std::vector<std::vector<double>>& values) {
+  for (std::size_t i = 0; i < knots.size(); ++i) {
+    const bool ascends = i == 0 || knots[i - 1] < knots[i];
+    file.require(std::isfinite(knots[i]) && ascends, name, "has knots that do not ascend");
   }
-  void integer(const std::string& name, std::uint64_t value) override {
-    writer_.attribute(kModelGroup, name, value);
+  for (const std::vector<double>& column : values)
+    file.require(column.size() == knots.size(), name, "has columns that differ in length");
+}
+
+// Two evenly spaced knots or more, with a value for each.
+void requireEven(const hdf5::Members& file, const std::string& name, const std::vector<double>& knots,
+                 const std::vector<double>& values) {
+  const bool fits = knots.size() >= 2 && knots.size() == values.size();
+  file.require(fits, name, "needs two knots or more and a value for each");
+  if (!fits) return;
+  const double step = (knots.back() - knots.front()) / static_cast<double>(knots.size() - 1);
+  for (std::size_t k = 0; k < knots.size(); ++k) {
+    const double even = knots.front() + step * static_cast<double>(k);
+    file.require(step > 0 && std::abs(knots[k] - even) <= 1e-6 * step, name,
+                 "has knots that are not evenly spaced");
   }
-  void number(const std::string& name, double value) override {
-    writer_.attribute(kModelGroup, name, std::vector<double>{value});
+}
+
+void weightMembers(hdf5::Members& file, compensation::CurvatureTables& tables) {
+  std::vector<std::vector<float>*> columns;
+  for (regression::CodeTable& table : tables.tables) columns.push_back(&table.log_weight);
+  std::vector<float> weights;
+  for (const std::vector<float>* column : columns)
+    weights.insert(weights.end(), column->begin(), column->end());
+  const std::size_t codes = tables.full_scale + 1u;
+  file.dataset("log_weight", weights, {tables.size.taxels(), tables.classes.size(), codes}, "",
+               "[taxels x models x codes], logarithm of the kernel sum of each reading");
+  auto first = weights.begin();
+  for (std::vector<float>* column : columns) {
+    column->assign(first, first + static_cast<std::ptrdiff_t>(codes));
+    first += static_cast<std::ptrdiff_t>(codes);
   }
-
- private:
-  hdf5::Writer& writer_;
-};
-
-class ModelReader : public regression::OptionReader {
- public:
-  explicit ModelReader(const hdf5::Reader& reader) : reader_(reader) {}
-  std::string text(const std::string& name) const override { return reader_.text(kModelGroup, name); }
-  std::uint64_t integer(const std::string& name) const override { return reader_.integer(kModelGroup, name); }
-  double number(const std::string& name) const override { return reader_.numbers(kModelGroup, name, 1)[0]; }
-
- private:
-  const hdf5::Reader& reader_;
-};
-
-// The entries whose options are in a file of this model. Options of GRNN and forest are in every file.
-std::vector<const regression::RegressorEntry*> entriesIn(const regression::RegressorOptions& options) {
-  std::vector<const regression::RegressorEntry*> entries;
-  for (const regression::RegressorEntry& entry : regression::packageRegressors().entries) {
-    if (entry.in_every_file) entries.push_back(&entry);
-  }
-  const regression::RegressorEntry* const own = regression::tableOf(options).find(options.name);
-  if (own != nullptr && !own->in_every_file) entries.push_back(own);
-  return entries;
 }
 
 }  // namespace
 
-void writeModel(const Calibration& calibration, hdf5::Writer& writer) {
-  const regression::RegressorOptions& options = calibration.regressor;
-  writer.attribute("/", "model", options.name);
-  writer.attribute("/", "bandwidth", std::vector<double>{options.grnn.bandwidth});
-  writer.group(kModelGroup);
-  writer.attribute(kModelGroup, "bandwidth_chosen", calibration.bandwidth_chosen ? 1 : 0);
-  ModelWriter model(writer);
-  for (const regression::RegressorEntry* entry : entriesIn(options)) {
-    if (entry->write != nullptr) entry->write(options, model);
+void ruleMembers(hdf5::Members& file, compensation::CurvatureTables& tables) {
+  compensation::CurvatureRule& rule = tables.rule;
+  if (!file.group("/rule")) return;  // a file of schema 1: nearest
+  file.attribute("blend", rule.blend, kBlends);
+  file.note("meaning", "how the tables of the classes become the table of any curvature");
+  file.column("model_of_class", rule.model_of_class, "",
+              "classes of one number share their tables; absent = each has its own");
+  file.column("length_scale", rule.length_scale, "1/m",
+              "distance in curvature at which a class's weight falls by exp(-1/2), one for all taxels or one "
+              "each");
+  file.column("law_curvature", rule.law.curvature, "1/m", "knots of the matrix's law of bending");
+  file.column("law_gain", rule.law.gain, "", "pressure = gain x pressure without bending effects + offset");
+  file.column("law_offset", rule.law.offset, "Pa", "likewise");
+  file.column("unseen_pressure", rule.unseen.pressure, "Pa", "knots of the deviation of an unseen curvature");
+  file.column("unseen_deviation", rule.unseen.deviation, "Pa",
+              "midway between classes, beside the tables' own");
+  file.require(rule.model_of_class.empty() || rule.model_of_class.size() == tables.classes.size(),
+               "model_of_class", "must have one number for each class");
+  requireKnots(file, "law", rule.law.curvature, {rule.law.gain, rule.law.offset});
+  requireKnots(file, "unseen", rule.unseen.pressure, {rule.unseen.deviation});
+  if (rule.blend != compensation::BlendRule::kKernel) return;
+  file.require(rule.length_scale.size() == 1 || rule.length_scale.size() == tables.size.taxels(),
+               "length_scale", "has neither one value nor one for each taxel");
+  weightMembers(file, tables);
+}
+
+void historyMembers(hdf5::Members& file, compensation::HistoryModel& model) {
+  constexpr double kShortest = 1e-6, kLongest = 1e12;  // of a time constant [s]
+  constexpr double kLargestWeight = 100;
+  constexpr std::size_t kMost = 64;  // knots or operators
+  if (!file.group("/history", model.present())) return;
+  std::string family = compensation::historyName(model.family);
+  file.attribute("family", family);
+  model.family = compensation::historyFromName(family);
+  file.require(model.present(), "family", "is none");
+  file.note("meaning",
+            "p = x + c(x) + sum_j w_j (play_j(x) - x) + sum_k v_k (ema_k(x) - x), x = answer of the table");
+  const auto column = [&](const char* name, std::vector<double>& values, const char* unit,
+                          const char* meaning, double low, double high) {
+    file.column(name, values, unit, meaning);
+    file.within(name, values, low, high);
+    file.require(values.size() <= kMost, name, "has too many values");
+  };
+  column("knot", model.knot, "Pa", "evenly spaced knots of c", -kLargestPressure, kLargestPressure);
+  column("correction", model.correction, "Pa", "c at each knot, constant beyond", -kLargestPressure,
+         kLargestPressure);
+  column("radius", model.radius, "Pa", "of the plays", kAboveZero, kLargestPressure);
+  column("play_weight", model.play_weight, "", "w", -kLargestWeight, kLargestWeight);
+  column("time_constant", model.time_constant, "s", "of the memories", kShortest, kLongest);
+  column("memory_weight", model.memory_weight, "", "v", -kLargestWeight, kLargestWeight);
+  column("deviation_knot", model.deviation_knot, "Pa", "evenly spaced pressures", -kLargestPressure,
+         kLargestPressure);
+  column("loading_deviation", model.loading_deviation, "Pa", "of a reading of a protocol that was left out",
+         kAboveZero, kLargestPressure);
+  column("unloading_deviation", model.unloading_deviation, "Pa", "likewise", kAboveZero, kLargestPressure);
+  requireEven(file, "correction", model.knot, model.correction);
+  requireEven(file, "loading_deviation", model.deviation_knot, model.loading_deviation);
+  requireEven(file, "unloading_deviation", model.deviation_knot, model.unloading_deviation);
+  file.require(model.radius.size() == model.play_weight.size(), "play_weight",
+               "must have one for each radius");
+  file.require(model.time_constant.size() == model.memory_weight.size(), "memory_weight",
+               "must have one for each time_constant");
+}
+
+void sessionMembers(hdf5::Members& file, SessionZero& zero) {
+  if (!file.group("/session", zero.expected())) return;
+  file.attribute("tare", zero.tare, kTares);
+  file.note("meaning",
+            "a tare is due at rest at the start of a session (one surface and mount); RMSE on sessions "
+            "that were left out, without and with it");
+  file.attribute("rmse_without", zero.rmse_without);
+  file.attribute("rmse", zero.rmse);
+  file.note("unit", "Pa");
+  file.within("rmse_without", {zero.rmse_without}, 0, kLargestPressure);
+  file.within("rmse", {zero.rmse}, 0, kLargestPressure);
+}
+
+void temperatureMembers(hdf5::Members& file, compensation::TemperatureModel& model) {
+  constexpr double kColdest = -273.15, kHottest = 1000;  // [degree Celsius]
+  if (!file.group("/temperature", model.present())) return;
+  file.note("meaning",
+            "p = p_0 (1 + sensitivity (T_lag - reference)), T_lag = low-pass of the measured temperature "
+            "with the time constant lag; low, high, spread: of training");
+  const auto number = [&](const std::string& name, double& value, const char* unit, double low, double high) {
+    file.attribute(name, value);
+    file.note(name + "_unit", unit);
+    file.within(name, {value}, low, high);
+  };
+  number("sensitivity", model.sensitivity, "1/K", -1, 1);
+  number("reference", model.reference, "degree Celsius", kColdest, kHottest);
+  number("lag", model.lag, "s", 0, 1e6);
+  number("low", model.low, "degree Celsius", kColdest, kHottest);
+  number("high", model.high, "degree Celsius", model.low, kHottest);
+  number("spread", model.spread, "K", 0, 1000);
+  file.require(model.present(), "sensitivity", "is 0");
+}
+
+namespace {
+
+// Beyond these, squares are no numbers that a covariance can be made of.
+constexpr double kLeastOfShape = 1e-9;
+constexpr double kMostOfShape = 1e12;
+
+void shapeLawMembers(hdf5::Members& file, compensation::ShapeModel& model) {
+  compensation::MountScatter& s = model.scatter;
+  compensation::ShapeLaw& l = model.law;
+  matrix::Curvature& d = model.direction;
+  file.attribute("family", s.family, kFamilies);
+  file.attribute("contrasts", s.contrasts);
+  file.numbers("scatter", std::tie(s.deviation, s.length, s.common, s.white, s.history));
+  file.note("scatter_meaning",
+            "of mounts: deviation [Pa], length [m], common [Pa], white [Pa], history [Pa]");
+  file.numbers("law", std::tie(l.common, l.common_length, l.own_offset, l.own_share, l.own, l.own_length,
+                               l.own_white));
+  file.note(
+      "law_meaning",
+      "common [Pa], its length; own_offset [Pa], own_share, own [Pa], its length [1/m], own_white [Pa]");
+  file.numbers("direction", std::tie(d.x, d.y, d.xy));
+  file.attribute("one_direction", model.one_direction);
+  file.require(s.contrasts > 0, "contrasts", "is 0, but the scatter was learnt from some");
+  file.within("scatter", {s.deviation, s.length, s.common, s.white}, kLeastOfShape, kMostOfShape);
+  file.within("scatter", {s.history}, 0, kMostOfShape);
+  file.within("law", {l.common, l.common_length, l.own_offset, l.own_share, l.own, l.own_length, l.own_white},
+              kLeastOfShape, kMostOfShape);
+  file.within("direction", {d.x, d.y, d.xy}, -kMostOfShape, kMostOfShape);
+}
+
+void requireShape(const hdf5::Members& file, const compensation::ShapeModel& model) {
+  std::vector<double> scales;
+  for (std::size_t t = 0; t < model.used.size(); ++t) {
+    if (model.used[t] != 0) scales.push_back(model.scale[t]);
+  }
+  file.require(!scales.empty(), "used", "has no taxel that takes part");
+  file.within("scale", scales, kLeastOfShape, kMostOfShape);
+  file.within("curvature", model.curvature, -kMostOfShape, kMostOfShape);
+  file.within("gain", model.gain, kLeastOfShape, kMostOfShape);
+  file.within("zero_share", model.zero_share, 0, 1);
+  file.within("rest", model.rest, -kMostOfShape, kMostOfShape);
+  file.within("history", model.history, -kMostOfShape, kMostOfShape);
+  for (std::size_t s = 0; s < model.curvature.size(); ++s) {
+    file.require(s == 0 || model.curvature[s] > model.curvature[s - 1], "curvature", "does not ascend");
+    file.require(model.mounts[s] > 0, "mounts", "has a surface without a mount");
   }
 }
 
-// If the model is unknown to this version, its tables can be used, but it cannot be trained.
-void readModel(const hdf5::Reader& reader, Calibration& calibration) {
-  regression::RegressorOptions& options = calibration.regressor;
-  options.name = reader.text("/", "model");
-  options.grnn.bandwidth = reader.numbers("/", "bandwidth", 1)[0];
-  if (!reader.has(kModelGroup)) return;  // files of the first version, all of a GRNN with default options
-  calibration.bandwidth_chosen = reader.integer(kModelGroup, "bandwidth_chosen") != 0;
-  const ModelReader model(reader);
-  for (const regression::RegressorEntry* entry : entriesIn(options)) {
-    if (entry->read != nullptr) entry->read(model, options);
-  }
+}  // namespace
+
+void shapeMembers(hdf5::Members& file, compensation::ShapeModel& model) {
+  if (!file.group("/shape")) return;
+  file.attribute("missing", model.missing);
+  file.note("meaning", "how the unloaded sheet reads on each surface of training");
+  if (!model.present()) return;
+  shapeLawMembers(file, model);
+  file.texts("surfaces", model.surfaces, "by ascending curvature");
+  const std::size_t surfaces = model.surfaces.size(), taxels = model.layout.size.taxels();
+  file.require(surfaces >= 2, "surfaces", "has fewer than two surfaces");
+  file.dataset("curvature", model.curvature, {surfaces}, "1/m", "principal");
+  file.dataset("mounts", model.mounts, {surfaces}, "", "behind each mean");
+  file.dataset("gain", model.gain, {surfaces}, "", "how strongly a mount acts on the surface");
+  file.dataset("zero_share", model.zero_share, {surfaces}, "", "readings at rest that are 0");
+  file.dataset("error_between", model.error_between, {surfaces - 1}, "1/m",
+               "of an estimate between two neighbours; NaN = not known");
+  file.dataset("used", model.used, {taxels}, "", "1 = the taxel takes part");
+  file.dataset("scale", model.scale, {taxels}, "Pa", "pressure that a reading of full scale would stand for");
+  std::vector<double> pattern = model.history.empty() ? std::vector<double>(taxels, 1.0) : model.history;
+  file.dataset("history", pattern, {taxels}, "", "pattern that a load leaves behind, mean 1");
+  file.dataset("rest", model.rest, {surfaces, taxels}, "Pa", "mean over mounts, by that scale");
+  if (!file.reads()) return;
+  model.history = pattern;
+  requireShape(file, model);
 }
 
 }  // namespace fsr::calibration

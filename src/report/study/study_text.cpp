@@ -1,19 +1,15 @@
 #include <cmath>
-#include <iomanip>
-#include <sstream>
+#include <limits>
 
-#include "report/curvature_error_report.h"
 #include "report/history_report.h"
 #include "report/study/study_report.h"
+#include "report/text_table.h"
 #include "settings/number_text.h"
 #include "study/paper_numbers.h"
 
 namespace fsr::report {
 
 namespace {
-
-constexpr int kNameWidth = 20;
-constexpr double kKilopascal = 1e3;  // [Pa]
 
 std::string number(double value, int digits) {
   const std::string text = settings::fixedText(value, digits);
@@ -24,10 +20,6 @@ std::string number(double value, int digits) {
 std::string spread(const statistics::Spread& value, int digits, int deviation_digits) {
   if (!std::isfinite(value.mean)) return "-";
   return number(value.mean, digits) + " +- " + number(value.deviation, deviation_digits);
-}
-
-void cell(std::ostream& out, const std::string& text, int width) {
-  out << std::setw(width) << text;
 }
 
 std::string probability(double p) {
@@ -44,91 +36,115 @@ std::string testText(const statistics::TestResult& test, double p) {
          number(test.statistic, 2) + ", " + probability(p) + ", n = " + std::to_string(test.n) + " taxels";
 }
 
-void scoreHeads(std::ostream& out) {
-  out << std::left << std::setw(kNameWidth) << "" << std::right;
-  for (const char* const head : {"R2", "paper", "RMSE%", "paper"}) cell(out, head, 18);
-  for (const char* const head : {"RMSE", "bias", "p95", "worst taxel"}) cell(out, head, 12);
-  out << '\n' << std::setw(kNameWidth + 4 * 18) << "";
-  for (const char* const unit : {"kPa", "kPa", "kPa", "RMSE%"}) cell(out, unit, 12);
-  out << '\n';
-}
-
-void scoreRow(std::ostream& out, const study::StudyScore& score, const matrix::Layout& layout) {
-  const study::PaperScore paper =
-      study::paperScore(score.id == "grnn" ? "baseline" : score.id).value_or(study::PaperScore{});
-  const statistics::ErrorSummary& errors = score.errors.whole.all;
-  out << std::left << std::setw(kNameWidth) << score.label << std::right;
-  cell(out, spread(score.r2_spread, 3, 4), 18);
-  cell(out, spread(paper.r2, 2, 4), 18);
-  cell(out, spread(score.rmse_percent_spread, 2, 2), 18);
-  cell(out, spread(paper.rmse_percent, 2, 2), 18);
-  for (const double value : {errors.rmse, errors.bias, errors.p95_absolute}) {
-    cell(out, number(value / kKilopascal, 1), 12);
+std::string scoreTable(const std::vector<study::StudyScore>& scores, const matrix::Layout& layout) {
+  TextTable table({"", "R2", "paper", "RMSE%", "paper", "RMSE", "bias", "p95", "worst taxel", ""}, {9});
+  table.row({"", "", "", "", "", "kPa", "kPa", "kPa", "RMSE%"});
+  for (const study::StudyScore& score : scores) {
+    const study::PaperScore paper =
+        study::paperScore(score.id == "grnn" ? "baseline" : score.id).value_or(study::PaperScore{});
+    const statistics::ErrorSummary& errors = score.errors.whole.all;
+    const std::size_t worst = score.worst_taxel;
+    table.row({score.label, spread(score.r2_spread, 3, 4), spread(paper.r2, 2, 4),
+               spread(score.rmse_percent_spread, 2, 2), spread(paper.rmse_percent, 2, 2),
+               number(errors.rmse / 1e3, 1), number(errors.bias / 1e3, 1),
+               number(errors.p95_absolute / 1e3, 1), number(score.worst_rmse_percent, 2),
+               "row " + std::to_string(layout.row({worst})) + ", column " +
+                   std::to_string(layout.column({worst})) + " (taxel " + std::to_string(worst) + ")"});
   }
-  cell(out, number(score.worst_rmse_percent, 2), 12);
-  out << "  row " << layout.row({score.worst_taxel}) << ", column " << layout.column({score.worst_taxel})
-      << " (taxel " << score.worst_taxel << ")\n";
+  return table.text();
 }
 
-void comparisonText(std::ostream& out, const study::StudyComparison& comparison,
-                    const matrix::Layout& layout) {
-  out << '\n' << comparison.title << '\n';
-  scoreHeads(out);
-  for (const study::StudyScore& score : comparison.scores) scoreRow(out, score, layout);
-  out << "As published, taxels treated as independent:\n";
-  out << "  R2:    " << testText(comparison.r2.test, comparison.r2.p) << '\n';
-  out << "  RMSE%: " << testText(comparison.rmse_percent.test, comparison.rmse_percent.p) << '\n';
-  for (const std::string& sentence : study::paperStatements(comparison.id))
-    out << "  The paper: " << sentence << '\n';
-  out << "Difference of RMSE%, by bootstrap over whole units:\n";
+std::string comparisonText(const study::StudyComparison& comparison, const matrix::Layout& layout) {
+  TextTable differences({}, {1});
   for (const study::StudyDifference& difference : comparison.differences) {
     const statistics::BootstrapResult& interval = difference.rmse_percent;
-    out << "  " << std::left << std::setw(2 * kNameWidth) << difference.first + " - " + difference.second
-        << std::right;
-    if (interval.method == statistics::IntervalMethod::kNone) {
-      out << number(interval.estimate, 2) << ", valid for these recordings only\n";
-      continue;
-    }
-    out << number(interval.estimate, 2) << "  95 % interval " << number(interval.low, 2) << " to "
-        << number(interval.high, 2) << " (" << interval.units << ' ' << interval.level << "s)\n";
+    const std::string said = interval.method == statistics::IntervalMethod::kNone
+                                 ? "valid for these recordings only"
+                                 : "95 % interval " + number(interval.low, 2) + " to " +
+                                       number(interval.high, 2) + " (" + std::to_string(interval.units) +
+                                       " " + interval.level + "s)";
+    differences.row(
+        {"  " + difference.first + " - " + difference.second, number(interval.estimate, 2) + "  " + said});
   }
+  return "\n" + comparison.title + "\n" + scoreTable(comparison.scores, layout) +
+         "As published, taxels treated as independent:\n  R2:    " +
+         testText(comparison.r2.test, comparison.r2.p) +
+         "\n  RMSE%: " + testText(comparison.rmse_percent.test, comparison.rmse_percent.p) + "\n" +
+         linesOf(study::paperStatements(comparison.id), "  The paper: ") +
+         "Difference of RMSE%, by bootstrap over whole units:\n" + differences.text();
 }
 
-void splitText(std::ostream& out, const study::SplitResult& split) {
-  out << '\n' << split.id << ": " << split.description << '\n';
+std::string splitText(const study::SplitResult& split) {
+  TextTable table({}, {1});
   for (const study::StudyScore& score : split.scores) {
-    out << "  " << std::left << std::setw(kNameWidth) << score.id << std::right
-        << number(score.errors.whole.all.rmse / kKilopascal, 1) << " kPa  ("
-        << number(score.rmse_interval.low / kKilopascal, 1) << " to "
-        << number(score.rmse_interval.high / kKilopascal, 1) << "), RMSE% "
-        << number(score.rmse_percent_spread.mean, 2) << '\n';
+    table.row({"  " + score.id, inKilopascals(score.errors.whole.all.rmse) + " kPa  (" +
+                                    inKilopascals(score.rmse_interval.low) + " to " +
+                                    inKilopascals(score.rmse_interval.high) + "), RMSE% " +
+                                    number(score.rmse_percent_spread.mean, 2)});
   }
+  return "\n" + split.id + ": " + split.description + "\n" + table.text();
 }
 
-std::string sentences(const std::vector<std::string>& list) {
-  std::string text;
-  for (const std::string& sentence : list) text += sentence + '\n';
-  return text;
+// "right", "-40 %", "+2 1/m".
+std::string errorText(const study::CurvatureError& error) {
+  const bool share = error.absolute == 0;
+  const double size = share ? 100 * error.relative : error.absolute;
+  if (size == 0) return "right";
+  return (size > 0 ? "+" : "") + settings::roundedText(size) + (share ? " %" : " 1/m");
+}
+
+template <typename Cell>
+std::string errorTable(const std::string& title, const std::vector<study::CurvatureErrorCurve>& curves,
+                       Cell cell) {
+  std::vector<std::string> headings = {"  curvature is"};
+  for (const study::CurvatureErrorScore& score : curves.front().scores)
+    headings.push_back(errorText(score.error));
+  TextTable table(headings);
+  for (const study::CurvatureErrorCurve& curve : curves) {
+    std::vector<std::string> cells = {"  " + curve.id};
+    for (const study::CurvatureErrorScore& score : curve.scores) cells.push_back(cell(score));
+    table.row(cells);
+  }
+  return title + "\n" + table.text();
+}
+
+// Error of the map against error of the curvature, and how much of the change a stated deviation of curvature
+// accounts for.
+std::string curvatureErrorText(const std::vector<study::CurvatureErrorCurve>& curves) {
+  if (curves.empty()) return "";
+  using Score = study::CurvatureErrorScore;
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  return "\nError of the map against error of the curvature: five_sections, trained with the right "
+         "curvatures, told wrong ones\n" +
+         errorTable("RMSE [kPa]", curves, [](const Score& score) { return inKilopascals(score.rmse); }) +
+         errorTable("RMSE [% of range]", curves,
+                    [](const Score& score) { return settings::fixedText(score.rmse_percent, 2); }) +
+         errorTable(
+             "Stated: what the map's deviation takes up where the message states the error as its deviation "
+             "[% of the change of the pressures]",
+             curves, [&](const Score& score) {
+               return settings::fixedText(score.moved > 0 ? 100 * score.stated / score.moved : none, 0);
+             });
 }
 
 }  // namespace
 
 std::string studyText(const study::StudyResult& result) {
-  std::ostringstream out;
-  out << result.scans << " scans of " << result.taxels.size() << " taxels on " << result.classes.size()
-      << " conditions, " << result.cycles << " cycles, " << result.mounts << " mounts\n";
-  for (const std::string& warning : result.warnings) out << "Warning: " << warning << '\n';
+  std::string text = std::to_string(result.scans) + " scans of " + std::to_string(result.taxels.size()) +
+                     " taxels on " + std::to_string(result.classes.size()) + " conditions, " +
+                     std::to_string(result.cycles) + " cycles, " + std::to_string(result.mounts) +
+                     " mounts\n" + linesOf(result.warnings, "Warning: ");
   for (const study::StudyComparison& comparison : result.comparisons)
-    comparisonText(out, comparison, result.layout);
-  if (!result.plan.beyond_the_paper) return out.str() + '\n' + sentences(result.holds_for);
-  out << "\nAll scans, bandwidth chosen by nested cross-validation: RMSE with 95 % interval\n";
+    text += comparisonText(comparison, result.layout);
+  if (!result.plan.beyond_the_paper) return text + '\n' + linesOf(result.holds_for, "");
+  text += "\nAll scans, bandwidth chosen by nested cross-validation: RMSE with 95 % interval\n";
   for (const study::SplitResult& split : result.splits) {
-    splitText(out, split);
-    if (split.scores.back().id == "history") out << historyChoiceText(result.history);
+    text += splitText(split);
+    if (split.scores.back().id == "history") text += historyChoiceText(result.history);
   }
-  if (result.history.protocols.empty()) out << "\nhistory: " << result.history.choice << '\n';
-  out << curvatureErrorText(result.curvature_errors) << '\n' << result.headline.text << '\n';
-  return out.str() + sentences(result.holds_for);
+  if (result.history.protocols.empty()) text += "\nhistory: " + result.history.choice + '\n';
+  return text + curvatureErrorText(result.curvature_errors) + '\n' + result.headline.text + '\n' +
+         linesOf(result.holds_for, "");
 }
 
 }  // namespace fsr::report

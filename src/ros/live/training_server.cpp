@@ -9,7 +9,7 @@
 #include "regression/option_names.h"
 #include "regression/regressors.h"
 #include "report/calibration_report.h"
-#include "report/session_report.h"
+#include "report/history_report.h"
 #include "ros/bags/message_events.h"
 #include "ros/bags/resource_path.h"
 #include "ros/live/parameters.h"

@@ -20,7 +20,6 @@
 #include "report/calibration_report.h"
 #include "report/good_for.h"
 #include "report/recheck_report.h"
-#include "report/training_summary.h"
 #include "ros/bags/bag_topics.h"
 #include "ros/bags/bag_walk.h"
 #include "ros/tools/bag_options.h"

@@ -11,6 +11,7 @@
 
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "support/file_complaint.h"
 #include "support/planted_shape.h"
 #include "support/small_calibration.h"
 #include "support/source_dir.h"
@@ -36,17 +37,8 @@ class ShapeFile : public testing::Test {
     saveCalibration(saved, path_);
     return loadCalibration(path_);
   }
-  // The error message after the path, or "accepted".
   std::string complaintAbout(const std::function<void(ShapeModel&)>& spoil) const {
-    Calibration spoiled = calibration();
-    spoil(spoiled.shape);
-    saveCalibration(spoiled, path_);
-    try {
-      loadCalibration(path_);
-    } catch (const settings::InputError& error) {
-      return std::string(error.what()).substr(path_.size() + 2);
-    }
-    return "accepted";
+    return test_support::fileComplaint(calibration(), path_, [&](Calibration& c) { spoil(c.shape); });
   }
 
   const std::string path_ = testing::TempDir() + "shape_" + std::to_string(::getpid()) + ".h5";
@@ -135,13 +127,13 @@ TEST_F(ShapeFile, IsRefusedWhereItsModelCannotBeUsed) {
   EXPECT_EQ(complaintAbout([](ShapeModel& m) { m.scatter.white = 1e200; }),
             "its /shape/scatter has a value of 1e+200, but all must be 1e-09 to 1e+12");
   EXPECT_EQ(complaintAbout([](ShapeModel& m) { m.scatter.contrasts = 0; }),
-            "its /shape contrasts is 0, but the scatter was learnt from some");
+            "its /shape/contrasts is 0, but the scatter was learnt from some");
   EXPECT_EQ(complaintAbout([](ShapeModel& m) { m.law.own_length = NAN; }),
             "its /shape/law has a value of .nan, but all must be 1e-09 to 1e+12");
   EXPECT_EQ(complaintAbout([](ShapeModel& m) { m.curvature[2] = m.curvature[1]; }),
             "its /shape/curvature does not ascend");
   EXPECT_EQ(complaintAbout([](ShapeModel& m) { m.curvature[4] = INFINITY; }),
-            "its /shape/curvature has a value that is not finite");
+            "its /shape/curvature has a value of .inf, but all must be -1e+12 to 1e+12");
   EXPECT_EQ(complaintAbout([](ShapeModel& m) { m.rest[7] = NAN; }),
             "its /shape/rest has a value of .nan, but all must be -1e+12 to 1e+12");
   EXPECT_EQ(complaintAbout([](ShapeModel& m) { m.history[0] = NAN; }),
@@ -157,7 +149,7 @@ TEST_F(ShapeFile, IsRefusedWhereItsModelCannotBeUsed) {
   EXPECT_EQ(complaintAbout([](ShapeModel& m) { m.used.assign(20, 0); }),
             "its /shape/used has no taxel that takes part");
   EXPECT_EQ(complaintAbout([](ShapeModel& m) { m.direction.x = NAN; }),
-            "its /shape/direction has a value that is not finite");
+            "its /shape/direction has a value of .nan, but all must be -1e+12 to 1e+12");
 }
 
 TEST_F(ShapeFile, OfOneSurfaceIsRefused) {

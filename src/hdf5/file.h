@@ -9,6 +9,9 @@
 
 namespace fsr::hdf5 {
 
+/// Length of a dataset in each dimension.
+using Shape = std::vector<std::size_t>;
+
 /// Bytes in front of HDF5's own.
 constexpr std::size_t kUserBlock = 512;
 
@@ -32,13 +35,16 @@ class Writer {
   /// `values` are row-major. `unit` and `meaning` become attributes where they are not empty. Integers are
   /// stored in the narrowest type that holds all of them; readers return the same values.
   template <typename T>
-  void dataset(const std::string& path, const std::vector<T>& values, const std::vector<std::size_t>& shape,
-               const std::string& unit, const std::string& meaning);
+  void dataset(const std::string& path, const std::vector<T>& values, const Shape& shape,
+               const std::string& unit, const std::string& meaning) {
+    dataset<T>(
+        path, 1, [&](std::size_t) { return values; }, shape, unit, meaning);
+  }
   /// The same from `pieces` pieces, slabs of the first dimension one behind the other, so that only one is in
-  /// memory at a time. piece(i) is called twice and must give the same values.
+  /// memory at a time. piece(i) is called several times and must give the same values.
   template <typename T>
   void dataset(const std::string& path, std::size_t pieces,
-               const std::function<std::vector<T>(std::size_t)>& piece, const std::vector<std::size_t>& shape,
+               const std::function<std::vector<T>(std::size_t)>& piece, const Shape& shape,
                const std::string& unit, const std::string& meaning);
   void texts(const std::string& path, const std::vector<std::string>& texts, const std::string& meaning);
 
@@ -50,6 +56,35 @@ class Writer {
 
   std::lock_guard<std::mutex> lock_;
   std::int64_t file_;
+};
+
+/// Reads files of Writer, piece by piece. Every function throws InputError, which names the object, where it
+/// is missing, has another shape, or claims more values than the file has bytes. So the values read take at
+/// most eight times the file's size.
+class Reader {
+ public:
+  explicit Reader(const std::string& path);
+  ~Reader();
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
+
+  /// Whether there is a group or dataset at this path. Its parent must exist.
+  bool has(const std::string& path) const;
+  std::string text(const std::string& path, const std::string& attribute) const;
+  std::vector<double> numbers(const std::string& path, const std::string& attribute, std::size_t size) const;
+  std::uint64_t integer(const std::string& path, const std::string& attribute) const;
+  Shape shape(const std::string& path) const;
+  /// `shape`: the shape that the dataset must have.
+  template <typename T>
+  std::vector<T> dataset(const std::string& path, const Shape& shape) const;
+  std::vector<std::string> texts(const std::string& path) const;
+
+ private:
+  void requireRoom(const std::string& path, const Shape& shape, std::size_t bytes) const;
+
+  std::lock_guard<std::mutex> lock_;
+  std::int64_t file_;
+  std::size_t size_;  // [bytes]
 };
 
 }  // namespace fsr::hdf5
