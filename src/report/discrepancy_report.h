@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "fsr_pressure_map/discrepancy/discrepancy.h"
-#include "simulation/simulation_text.h"
+#include "simulation/settings_text.h"
 
 namespace fsr::report {
 

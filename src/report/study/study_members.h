@@ -6,7 +6,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "report/members_json.h"
-#include "study/paper_numbers.h"
+#include "study/paper.h"
 #include "study/study_pieces.h"
 
 // The members of a study: of results.json, and of the file of a shard. See members_json.h.

@@ -5,7 +5,7 @@
 #include "report/study/study_report.h"
 #include "report/text_table.h"
 #include "settings/number_text.h"
-#include "study/paper_numbers.h"
+#include "study/paper.h"
 
 namespace fsr::report {
 
