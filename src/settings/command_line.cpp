@@ -4,6 +4,7 @@
 #include <malloc.h>
 #endif
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -20,6 +21,7 @@ namespace fsr::settings {
 namespace {
 
 constexpr int kUnusable = 2;  // exit status of wrong usage and unusable input
+constexpr char kFiles[] = "files";
 
 // The whole text as a number, or NaN.
 double parsed(const std::string& text) {
@@ -37,144 +39,123 @@ double parsed(const std::string& text) {
 }  // namespace
 
 CommandLine::CommandLine(const std::string& tool, const std::string& usage, const std::string& purpose)
-    : tool_(tool), usage_(usage), purpose_(purpose) {
-  flag("help", "print this help and exit");
+    : tool_(tool), usage_(usage), app_(std::make_shared<CLI::App>(purpose, tool)) {
+  app_->add_option(kFiles)->expected(-1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app_->set_help_flag("--help", "print this help and exit");
 }
 
 CommandLine& CommandLine::option(const std::string& name, const std::string& placeholder,
                                  const std::string& help) {
-  return declare(name, {placeholder, help});
-}
-
-CommandLine& CommandLine::input(const std::string& name, const std::string& placeholder,
-                                const std::string& help) {
-  return declare(name, {placeholder, help, Use::kInput});
-}
-
-CommandLine& CommandLine::output(const std::string& name, const std::string& placeholder,
-                                 const std::string& help) {
-  return declare(name, {placeholder, help, Use::kOutput});
-}
-
-CommandLine& CommandLine::declare(const std::string& name, const Declared& option) {
-  order_.push_back(name);
-  declared_[name] = option;
+  app_->add_option("--" + name, help)->type_name(placeholder);
   return *this;
 }
 
 CommandLine& CommandLine::flag(const std::string& name, const std::string& help) {
-  return option(name, "", help);
+  app_->add_flag("--" + name, help)
+      ->disable_flag_override()
+      ->multi_option_policy(CLI::MultiOptionPolicy::Throw);
+  return *this;
 }
 
-void CommandLine::take(const std::string& name, const std::string* value) {
-  const auto found = declared_.find(name);
-  if (found == declared_.end()) {
-    throw InputError("--" + name + " is not an option of " + tool_ + "; see " + tool_ + " --help");
-  }
-  if (values_.count(name) != 0) throw InputError("--" + name + " is given twice; keep one");
-  const bool is_flag = found->second.placeholder.empty();
-  if (is_flag && value != nullptr) throw InputError("--" + name + " takes no value");
-  if (!is_flag && value == nullptr)
-    throw InputError("--" + name + " needs a value: " + found->second.placeholder);
-  if (found->second.use != Use::kValue && value->empty())
-    throw InputError("--" + name + " is empty, but must be a path: " + found->second.placeholder);
-  values_[name] = is_flag ? "" : *value;
+CommandLine& CommandLine::input(const std::string& name, const std::string& placeholder,
+                                const std::string& help) {
+  inputs_.push_back(name);
+  return option(name, placeholder, help);
 }
 
-std::vector<std::string> CommandLine::paths(Use use) const {
-  std::vector<std::string> paths;
-  if (use == Use::kInput) paths = files_;
-  for (const std::string& name : order_) {
-    if (declared_.at(name).use == use && has(name)) paths.push_back(values_.at(name));
+CommandLine& CommandLine::output(const std::string& name, const std::string& placeholder,
+                                 const std::string& help) {
+  outputs_.push_back(name);
+  return option(name, placeholder, help);
+}
+
+std::vector<std::string> CommandLine::inputPaths() const {
+  std::vector<std::string> paths = files_;
+  for (const std::string& name : inputs_) {
+    if (has(name)) paths.push_back(text(name, ""));
   }
   return paths;
 }
 
 // Two outputs of one name would lose the first.
 void CommandLine::refuseLosses() const {
-  const std::vector<std::string> outputs = paths(Use::kOutput);
-  for (std::size_t i = 0; i < outputs.size(); ++i) {
-    requireNoInput(outputs[i], paths(Use::kInput));
-    for (std::size_t k = 0; k < i; ++k) {
-      if (sameFile(outputs[i], outputs[k]))
-        throw InputError(outputs[i] + ": is given for two outputs; give two names");
+  std::vector<std::string> earlier;
+  for (const std::string& name : outputs_) {
+    if (!has(name)) continue;
+    const std::string path = text(name, "");
+    requireNoInput(path, inputPaths());
+    for (const std::string& other : earlier) {
+      if (sameFile(path, other)) throw InputError(path + ": is given for two outputs; give two names");
     }
+    earlier.push_back(path);
   }
 }
 
 void CommandLine::requireWritable(const std::string& path, const std::string& kind) const {
-  requireNoInput(path, paths(Use::kInput));
+  requireNoInput(path, inputPaths());
   requireReplaceable(path, kind);
 }
 
 bool CommandLine::parse(int argc, const char* const* argv) {
-  const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
-  bool options = true;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    const std::string& word = words[i];
-    if (!options || word.rfind("--", 0) != 0) {
-      files_.push_back(word);
-    } else if (word == "--") {
-      options = false;
-    } else if (const std::size_t equals = word.find('='); equals != std::string::npos) {
-      const std::string value = word.substr(equals + 1);
-      take(word.substr(2, equals - 2), &value);
-    } else {
-      const std::string name = word.substr(2);
-      const auto found = declared_.find(name);
-      const bool wants_value = found != declared_.end() && !found->second.placeholder.empty();
-      take(name, wants_value && i + 1 < words.size() ? &words[++i] : nullptr);
-    }
+  try {
+    app_->parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    return false;
+  } catch (const CLI::ParseError& error) {
+    throw InputError(std::string(error.what()) + "; see " + tool_ + " --help");
   }
-  if (has("help")) return false;
+  files_ = app_->get_option(kFiles)->results();
+  for (const std::vector<std::string>& paths : {inputs_, outputs_}) {
+    for (const std::string& name : paths)
+      if (has(name) && text(name, "").empty())
+        throw InputError("--" + name + " is empty, but must be a path");
+  }
   refuseLosses();
   return true;
 }
 
 std::string CommandLine::help() const {
-  std::size_t width = 0;
-  const auto head = [this](const std::string& name) {
-    const std::string& placeholder = declared_.at(name).placeholder;
-    return "--" + name + (placeholder.empty() ? "" : " " + placeholder);
+  const auto head = [](const CLI::Option* option) {
+    const std::string placeholder = option->get_type_name();
+    return option->get_name() + (placeholder.empty() ? "" : " " + placeholder);
   };
-  for (const std::string& name : order_) width = std::max(width, head(name).size());
-  std::string text = tool_ + " " + usage_ + "\n\n" + purpose_ + "\n\n";
-  for (const std::string& name : order_) {
-    const std::string start = head(name);
-    text += "  " + start + std::string(width - start.size() + 2, ' ') + declared_.at(name).help + "\n";
+  std::size_t width = 0;
+  const auto listed = app_->get_options([](const CLI::Option* option) { return !option->get_positional(); });
+  for (const CLI::Option* option : listed) width = std::max(width, head(option).size());
+  std::string text = tool_ + " " + usage_ + "\n\n" + app_->get_description() + "\n\n";
+  for (const CLI::Option* option : listed) {
+    const std::string start = head(option);
+    text += "  " + start + std::string(width - start.size() + 2, ' ') + option->get_description() + "\n";
   }
   return text;
 }
 
 bool CommandLine::has(const std::string& name) const {
-  return values_.count(name) != 0;
+  return app_->count("--" + name) != 0;
 }
 
 std::string CommandLine::text(const std::string& name, const std::string& fallback) const {
-  const auto found = values_.find(name);
-  return found == values_.end() ? fallback : found->second;
+  return has(name) ? app_->get_option("--" + name)->results().front() : fallback;
 }
 
 std::string CommandLine::requiredText(const std::string& name) const {
-  if (!has(name)) {
-    throw InputError("--" + name + " " + declared_.at(name).placeholder + " is missing; see " + tool_ +
-                     " --help");
-  }
-  return values_.at(name);
+  if (has(name)) return text(name, "");
+  throw InputError("--" + name + " " + app_->get_option("--" + name)->get_type_name() + " is missing; see " +
+                   tool_ + " --help");
 }
 
 double CommandLine::number(const std::string& name, double fallback, const Range& range) const {
   if (!has(name)) return fallback;
-  const double value = parsed(values_.at(name));
-  if (!range.contains(value)) refuse(name, values_.at(name), range.text());
+  const double value = parsed(text(name, ""));
+  if (!range.contains(value)) refuse(name, text(name, ""), range.text());
   return value;
 }
 
 std::int64_t CommandLine::integer(const std::string& name, std::int64_t fallback, const Range& range) const {
   if (!has(name)) return fallback;
-  const double value = parsed(values_.at(name));
+  const double value = parsed(text(name, ""));
   if (!range.contains(value) || value != std::floor(value)) {
-    refuse(name, values_.at(name), "a whole number, " + range.text());
+    refuse(name, text(name, ""), "a whole number, " + range.text());
   }
   return static_cast<std::int64_t>(value);
 }

@@ -2,12 +2,15 @@
 
 #include <cstdint>
 #include <functional>
-#include <map>
-#include <set>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "fsr_pressure_map/settings/range.h"
+
+namespace CLI {
+class App;
+}
 
 namespace fsr::settings {
 
@@ -45,21 +48,12 @@ class CommandLine {
   std::int64_t integer(const std::string& name, std::int64_t fallback, const Range& range) const;
 
  private:
-  enum class Use { kValue, kInput, kOutput };
-  struct Declared {
-    std::string placeholder;  // empty = a flag
-    std::string help;
-    Use use = Use::kValue;
-  };
-  CommandLine& declare(const std::string& name, const Declared& option);
-  void take(const std::string& name, const std::string* value);
-  std::vector<std::string> paths(Use use) const;
+  std::vector<std::string> inputPaths() const;
   void refuseLosses() const;
 
-  std::string tool_, usage_, purpose_;
-  std::vector<std::string> order_;
-  std::map<std::string, Declared> declared_;
-  std::map<std::string, std::string> values_;
+  std::string tool_, usage_;
+  std::shared_ptr<CLI::App> app_;  // knows all options
+  std::vector<std::string> inputs_, outputs_;
   std::vector<std::string> files_;
 };
 

@@ -13,6 +13,8 @@
 /// rosbag::BagFormatException if a length points behind the end of its data.
 namespace fsr_ros::bag_records {
 
+constexpr std::size_t kIndexEntry = 12;  ///< size of an index entry: time and offset into the chunk [bytes]
+
 [[noreturn]] void damaged(const std::string& what);
 
 /// Reads a number, little endian, as on the computers that ROS runs on.

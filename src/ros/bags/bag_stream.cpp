@@ -20,7 +20,6 @@ using bag_records::number;
 using bag_records::RecordFile;
 using bag_records::takeBlock;
 
-constexpr std::size_t kIndexEntry = 12;             // time and offset into the chunk [bytes]
 constexpr std::size_t kKeptChunks = 4u << 20;       // unpacked chunks that are kept [bytes]
 constexpr std::uint64_t kMessagesOfReport = 10000;  // between two reports of progress
 
@@ -84,7 +83,8 @@ class BagStream::Cursor {
     RecordFile file(path_, RecordFile::Hash::kNone);
     file.goTo(run.index);
     file.next();
-    for (std::string_view data = file.data(); data.size() >= kIndexEntry; data.remove_prefix(kIndexEntry))
+    for (std::string_view data = file.data(); data.size() >= bag_records::kIndexEntry;
+         data.remove_prefix(bag_records::kIndexEntry))
       entries_.push_back({timeOf(data), run.chunk, run.order, number<std::uint32_t>(data.substr(8))});
     const auto before = [](const Entry& a, const Entry& b) {
       return a.received != b.received ? a.received < b.received : a.order < b.order;
@@ -185,9 +185,9 @@ void BagStream::readRuns(RecordFile& file, std::uint64_t chunk, std::uint32_t re
     requireKind(file, rosbag::OP_INDEX_DATA, "an index is missing behind its chunk");
     const auto id = field<std::uint32_t>(file.header(), rosbag::CONNECTION_FIELD_NAME);
     std::string_view data = file.data();
-    if (data.size() < kIndexEntry) continue;
+    if (data.size() < bag_records::kIndexEntry) continue;
     run.first = timeOf(data);
-    for (; data.size() >= kIndexEntry; data.remove_prefix(kIndexEntry))
+    for (; data.size() >= bag_records::kIndexEntry; data.remove_prefix(bag_records::kIndexEntry))
       run.first = std::min(run.first, timeOf(data));
     std::vector<Run>& runs = runs_[id];
     run.order = static_cast<std::uint32_t>(runs.size());

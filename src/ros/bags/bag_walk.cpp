@@ -22,8 +22,6 @@ using bag_records::number;
 using bag_records::RecordFile;
 using bag_records::takeBlock;
 
-constexpr std::size_t kIndexEntry = 12;  // size of an index entry: time and offset into the chunk [bytes]
-
 struct Message {
   std::uint32_t offset;  // of its record in the chunk [bytes]
   std::uint32_t connection;
@@ -109,9 +107,9 @@ class Walk {
     const auto id = field<std::uint32_t>(header, rosbag::CONNECTION_FIELD_NAME);
     const auto count = field<std::uint32_t>(header, rosbag::COUNT_FIELD_NAME);
     used_.insert(id);
-    if (data.size() != std::uint64_t{count} * kIndexEntry)
+    if (data.size() != std::uint64_t{count} * bag_records::kIndexEntry)
       damaged("an index has another length than it says");
-    for (; !data.empty(); data.remove_prefix(kIndexEntry)) {
+    for (; !data.empty(); data.remove_prefix(bag_records::kIndexEntry)) {
       const Message wanted{number<std::uint32_t>(data.substr(8)), id, {}, false};
       const auto found = std::lower_bound(messages_.begin(), messages_.end(), wanted);
       if (found == messages_.end() || wanted < *found) damaged("an index points to no message");

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr char kFormat[] = "fsr_pressure_map mask 1";
+constexpr char kMaskFormat[] = "fsr_pressure_map mask 1";
 
 }  // namespace
 
@@ -27,14 +27,14 @@ void saveMask(const std::vector<std::uint8_t>& mask, const std::string& path) {
     list += (list.empty() ? "" : ", ") + std::string(masked != 0 ? "1" : "0");
   std::error_code ignored;  // an error in the folder shows when the file is written
   fs::create_directories(fs::path(path).parent_path(), ignored);
-  fsr::settings::replaceFile(path, std::string("format: ") + kFormat + "\nmask: [" + list + "]\n");
+  fsr::settings::replaceFile(path, std::string("format: ") + kMaskFormat + "\nmask: [" + list + "]\n");
 }
 
 std::vector<std::uint8_t> loadMask(const std::string& path) {
   std::error_code none;
   if (!fs::is_regular_file(path, none)) return {};
   const auto settings = fsr::settings::Settings::fromFile(path);
-  settings.choice("format", {kFormat});
+  settings.choice("format", {kMaskFormat});
   std::vector<std::uint8_t> mask;
   for (const double value : settings.numbers("mask", {0, 1, ""})) mask.push_back(value != 0 ? 1 : 0);
   settings.refuseUnknown();

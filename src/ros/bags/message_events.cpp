@@ -3,15 +3,12 @@
 #include <algorithm>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "ros/messages/message_reader.h"
 #include "ros/messages/surface_message.h"
 
 namespace fsr_ros {
 
 namespace {
-
-std::int64_t stampOf(const std_msgs::Header& header) {
-  return static_cast<std::int64_t>(header.stamp.toNSec());
-}
 
 void require(bool good, const std::string& complaint) {
   if (!good) throw fsr::settings::InputError("matrix_info: " + complaint);

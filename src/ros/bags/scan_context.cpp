@@ -13,6 +13,7 @@
 
 #include "dataset/recording_builder.h"
 #include "dataset/sections.h"
+#include "ros/messages/message_reader.h"
 #include "ros/messages/surface_message.h"
 
 namespace fsr_ros {
@@ -20,10 +21,6 @@ namespace fsr_ros {
 namespace {
 
 constexpr std::int64_t kLongestGap = 2000000000;  // no interpolation between readings farther apart [ns]
-
-std::int64_t stampOf(const std_msgs::Header& header) {
-  return static_cast<std::int64_t>(header.stamp.toNSec());
-}
 
 // The label that is valid at a stamp. `first_holds_before`: the first label is also valid before its own
 // stamp.

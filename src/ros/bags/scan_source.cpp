@@ -18,6 +18,7 @@
 #include "ros/bags/scan_context.h"
 #include "ros/bags/scan_maps.h"
 #include "ros/bags/sensor_topics.h"
+#include "ros/messages/message_reader.h"
 #include "ros/messages/surface_message.h"
 
 namespace fsr_ros {
@@ -25,10 +26,6 @@ namespace fsr_ros {
 namespace {
 
 constexpr std::int64_t kPatience = 2000000000;  // how long a scan waits for its map [ns]
-
-std::int64_t stampOf(const std_msgs::Header& header) {
-  return static_cast<std::int64_t>(header.stamp.toNSec());
-}
 
 // Joins each scan with its map and surface by their stamps, and sends the scans on in the order of the
 // stamps.

@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr char kFormat[] = "fsr_pressure_map surface 1";
+constexpr char kSurfaceFormat[] = "fsr_pressure_map surface 1";
 const fsr::settings::Range kMount{0, std::numeric_limits<std::uint32_t>::max(), ""};
 
 }  // namespace
@@ -55,7 +55,7 @@ SurfaceMemory::SurfaceMemory(std::string path, const LaidOn& launched)
 
 SurfaceMemory::Stored SurfaceMemory::load(const std::string& path) {
   const auto settings = fsr::settings::Settings::fromFile(path);
-  settings.choice("format", {kFormat});
+  settings.choice("format", {kSurfaceFormat});
   Stored stored;
   stored.launched.surface = settings.text("launched_surface");
   stored.launched.mount = static_cast<std::uint32_t>(settings.integer("launched_mount", kMount));
@@ -81,7 +81,7 @@ void SurfaceMemory::save() {
   std::error_code ignored;  // an error in the folder shows when the file is written
   fs::create_directories(fs::path(path_).parent_path(), ignored);
   using fsr::settings::quotedText;
-  fsr::settings::replaceFile(path_, "format: " + std::string(kFormat) +
+  fsr::settings::replaceFile(path_, "format: " + std::string(kSurfaceFormat) +
                                         "\nlaunched_surface: " + quotedText(stored_->launched.surface) +
                                         "\nlaunched_mount: " + std::to_string(stored_->launched.mount) +
                                         "\nsurface: " + quotedText(stored_->now.surface) +

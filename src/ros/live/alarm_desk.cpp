@@ -19,8 +19,8 @@ namespace {
 using fsr::map::AlarmOptions;
 using fsr::map::AlarmState;
 
-constexpr double kMaxPressure = 10e6;  // [Pa]
-constexpr double kMaxDwell = 3600;     // [s]
+constexpr double kMaxThreshold = 10e6;  // [Pa]
+constexpr double kMaxDwell = 3600;      // [s]
 
 std::string nameOf(const std::string& region) {
   return region.empty() ? "the whole matrix" : "region " + region;
@@ -89,7 +89,7 @@ std::string AlarmDesk::set(const Request& request) {
              ? "it must be a name of the region file (regions:=FILE), or empty for the whole matrix"
              : "the names of " + region_file_ + " are known from the first map on"));
   }
-  require("threshold", request.threshold, kMaxPressure, "Pa");
+  require("threshold", request.threshold, kMaxThreshold, "Pa");
   AlarmOptions alarm = present(request.region);
   alarm.threshold = request.threshold > 0 ? request.threshold : std::numeric_limits<double>::infinity();
   if (!(request.dwell < 0)) alarm.dwell = request.dwell;

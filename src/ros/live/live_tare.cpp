@@ -15,7 +15,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 // If the stamps do not advance, the window never fills. The service then gives up after this time.
-constexpr std::chrono::seconds kLongestWait{60};
+constexpr std::chrono::seconds kLongestTare{60};
 
 fsr::settings::InputError changedMeanwhile() {
   return fsr::settings::InputError(
@@ -83,7 +83,7 @@ fsr::calibration::Tare LiveCalibration::measureTare(std::unique_lock<std::mutex>
 }
 
 void LiveCalibration::awaitWindow(std::unique_lock<std::mutex>& lock, double patience) {
-  const auto give_up = Clock::now() + kLongestWait;
+  const auto give_up = Clock::now() + kLongestTare;
   while (!measured_) {
     const std::uint64_t seen = scans_;
     const bool came = progress_.wait_for(lock, std::chrono::duration<double>(patience),

@@ -12,7 +12,7 @@ namespace fsr_ros {
 MeshPublisher::MeshPublisher(ros::NodeHandle& handle, std::string mesh_frame)
     : mesh_frame_(std::move(mesh_frame)),
       mesh_(handle.advertise<visualization_msgs::Marker>("mesh", 1, true)) {
-  if (!mesh_frame_.empty()) transform_ = handle.advertise<tf2_msgs::TFMessage>("/tf_static", 1, true);
+  if (!mesh_frame_.empty()) transform_.emplace();
 }
 
 void MeshPublisher::show(const std_msgs::Header& header, const std::optional<fsr::matrix::MeshPlace>& place) {
@@ -23,7 +23,7 @@ void MeshPublisher::show(const std_msgs::Header& header, const std::optional<fsr
                     << place->file << ", which mesh.file of the surface names, relative to the surface file");
   }
   mesh_.publish(readable ? toMarker(header, *place) : noMesh(header));
-  if (place && transform_) transform_.publish(toTransform(header, mesh_frame_, place->matrix));
+  if (place && transform_) transform_->sendTransform(toTransform(header, mesh_frame_, place->matrix));
 }
 
 }  // namespace fsr_ros

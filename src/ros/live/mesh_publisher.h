@@ -2,6 +2,7 @@
 
 #include <ros/node_handle.h>
 #include <std_msgs/Header.h>
+#include <tf2_ros/static_transform_broadcaster.h>
 
 #include <optional>
 #include <string>
@@ -24,7 +25,7 @@ class MeshPublisher {
  private:
   std::string mesh_frame_;
   ros::Publisher mesh_;
-  ros::Publisher transform_;
+  std::optional<tf2_ros::StaticTransformBroadcaster> transform_;
 };
 
 }  // namespace fsr_ros

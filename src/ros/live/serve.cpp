@@ -8,7 +8,7 @@ namespace fsr_ros {
 
 namespace {
 
-constexpr double kAgain = 1;  // [s]
+constexpr double kRetryPeriod = 1;  // [s]
 
 }  // namespace
 
@@ -20,9 +20,9 @@ bool makeUntilRight(const std::function<void()>& make, const std::function<void(
     } catch (const fsr::settings::InputError& error) {
       say(error.what());
     }
-    const ros::WallTime again = ros::WallTime::now() + ros::WallDuration(kAgain);
+    const ros::WallTime again = ros::WallTime::now() + ros::WallDuration(kRetryPeriod);
     while (ros::ok() && ros::WallTime::now() < again)
-      ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(kAgain / 10));
+      ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(kRetryPeriod / 10));
   }
   return false;
 }

@@ -21,7 +21,7 @@ namespace fsr_ros {
 
 namespace {
 
-constexpr double kComplaintPeriod = 10.0;  // [s]
+constexpr double kViewComplaintPeriod = 10.0;  // [s]
 
 }  // namespace
 
@@ -71,7 +71,7 @@ void ViewServer::onCurvature(const fsr_pressure_map::SurfaceCurvatureConstPtr& m
   try {
     shape_.setSurface(toSurface(*message));
   } catch (const fsr::settings::InputError& error) {
-    ROS_WARN_STREAM_THROTTLE(kComplaintPeriod, error.what());
+    ROS_WARN_STREAM_THROTTLE(kViewComplaintPeriod, error.what());
   }
 }
 
@@ -89,7 +89,7 @@ void ViewServer::onMap(const fsr_pressure_map::PressureMapConstPtr& message) {
     publish(*message, map);
     shown_ = message;
   } catch (const fsr::settings::InputError& error) {
-    ROS_WARN_STREAM_THROTTLE(kComplaintPeriod, error.what());
+    ROS_WARN_STREAM_THROTTLE(kViewComplaintPeriod, error.what());
   }
 }
 

@@ -74,17 +74,15 @@ Marker noMesh(const std_msgs::Header& header) {
   return marker(header, Marker::DELETE);
 }
 
-tf2_msgs::TFMessage toTransform(const std_msgs::Header& header, const std::string& mesh_frame,
-                                const fsr::matrix::Pose& matrix) {
+geometry_msgs::TransformStamped toTransform(const std_msgs::Header& header, const std::string& mesh_frame,
+                                            const fsr::matrix::Pose& matrix) {
   geometry_msgs::TransformStamped transform;
   transform.header.stamp = header.stamp;
   transform.header.frame_id = mesh_frame;
   transform.child_frame_id = header.frame_id;
   transform.transform.translation = toVector<geometry_msgs::Vector3>(matrix.position);
   transform.transform.rotation = toMessage(matrix.quaternion);
-  tf2_msgs::TFMessage message;
-  message.transforms.push_back(transform);
-  return message;
+  return transform;
 }
 
 }  // namespace fsr_ros

@@ -1,7 +1,7 @@
 #pragma once
 
+#include <geometry_msgs/TransformStamped.h>
 #include <std_msgs/Header.h>
-#include <tf2_msgs/TFMessage.h>
 #include <visualization_msgs/Marker.h>
 
 #include <string>
@@ -19,8 +19,8 @@ visualization_msgs::Marker toMarker(const std_msgs::Header& header, const fsr::m
 visualization_msgs::Marker noMesh(const std_msgs::Header& header);
 
 /// The pose of the matrix frame, that of `header`, in the frame of the mesh.
-tf2_msgs::TFMessage toTransform(const std_msgs::Header& header, const std::string& mesh_frame,
-                                const fsr::matrix::Pose& matrix);
+geometry_msgs::TransformStamped toTransform(const std_msgs::Header& header, const std::string& mesh_frame,
+                                            const fsr::matrix::Pose& matrix);
 
 /// "file://" and an absolute path, with the characters escaped that a URL may not contain.
 std::string fileUrl(const std::string& path);

@@ -3,6 +3,7 @@
 #include <ros/message_traits.h>
 #include <ros/serialization.h>
 #include <rosbag/message_instance.h>
+#include <std_msgs/Header.h>
 
 #include <cstdint>
 #include <string>
@@ -14,6 +15,11 @@
 #include "ros/messages/earlier_definitions.h"
 
 namespace fsr_ros {
+
+/// The stamp of a message [ns].
+inline std::int64_t stampOf(const std_msgs::Header& header) {
+  return static_cast<std::int64_t>(header.stamp.toNSec());
+}
 
 /// Whether MessageReader reads messages that were recorded with this definition as `Message`: the definition
 /// is the present one, or an earlier one with the same fields or without the last ones.

@@ -22,10 +22,10 @@ namespace fsr_ros {
 
 namespace {
 
-constexpr double kStill = 3.0;        // wall time without a change after which the last cycle has ended [s]
-constexpr double kStillShare = 0.02;  // share of the least span that is no change
-constexpr double kPatience = 5.0;     // for the description of the calibration node [s]
-constexpr std::uint32_t kQueue = 10000;
+constexpr double kStill = 3.0;         // wall time without a change after which the last cycle has ended [s]
+constexpr double kStillShare = 0.02;   // share of the least span that is no change
+constexpr double kInfoPatience = 5.0;  // for the description of the calibration node [s]
+constexpr std::uint32_t kPressureQueue = 10000;
 constexpr const char* kTopics[] = {"raw",       "chamber_pressure", "temperature", "matrix_info",
                                    "curvature", "session",          "events"};
 
@@ -45,8 +45,8 @@ std::string dateText() {
 }
 
 std::string runningCalibration(ros::NodeHandle handle, const Parameters& parameters) {
-  const auto info = ros::topic::waitForMessage<fsr_pressure_map::CalibrationInfo>("calibration_info", handle,
-                                                                                  ros::Duration(kPatience));
+  const auto info = ros::topic::waitForMessage<fsr_pressure_map::CalibrationInfo>(
+      "calibration_info", handle, ros::Duration(kInfoPatience));
   if (info && !info->path.empty()) return info->path;
   throw parameters.error("calibration", "must name a calibration file, because no calibration node runs");
 }
@@ -94,7 +94,7 @@ void Rechecker::startRecording(const ros::NodeHandle& private_handle) {
       [this](const sensor_msgs::FluidPressure& message) {
         if (std::isfinite(message.fluid_pressure)) pressure_.push_back(message.fluid_pressure);
       };
-  chamber_ = handle_.subscribe<sensor_msgs::FluidPressure>("chamber_pressure", kQueue, keep);
+  chamber_ = handle_.subscribe<sensor_msgs::FluidPressure>("chamber_pressure", kPressureQueue, keep);
   timer_ =
       handle_.createWallTimer(ros::WallDuration(0.5), [this](const ros::WallTimerEvent&) { countCycles(); });
   ROS_INFO_STREAM("load the sheet to " << fsr::settings::fixedText(parent_.trained.pressure.high / 1000, 0)

@@ -22,7 +22,7 @@ using Event = ros::MessageEvent<ShapeShifter const>;
 using Level = diagnostic_msgs::DiagnosticStatus;
 
 constexpr std::uint32_t kQueue = 10000;    // queue of each topic [messages]: ten seconds at 1 kHz
-constexpr double kPatience = 10.0;         // time without a scan until an error, once scans have come [s]
+constexpr double kScanPatience = 10.0;     // time without a scan until an error, once scans have come [s]
 constexpr double kComplaintPeriod = 10.0;  // [s]
 
 bool isScan(const ShapeShifter& message) {
@@ -177,7 +177,7 @@ void Recorder::watchScans() {
   if (now() - start_ > wait_ && !std::exchange(looked_, true) && !missingTopics().empty()) {
     ROS_WARN_STREAM("the recording goes on, but nothing has come yet on" << missingTopics());
   }
-  if (std::exchange(silent_, silence > kPatience) && !silent_) ROS_INFO("scans come again");
+  if (std::exchange(silent_, silence > kScanPatience) && !silent_) ROS_INFO("scans come again");
   if (silent_) ROS_ERROR_STREAM_THROTTLE(kComplaintPeriod, whyNoScan());
 }
 

@@ -13,8 +13,8 @@ namespace fsr_ros {
 
 namespace {
 
-constexpr double kPatience = 10.0;         // time without growth of the bag until an error [s]
-constexpr double kComplaintPeriod = 10.0;  // [s]
+constexpr double kSessionComplaintPeriod = 10.0;  // [s]
+constexpr double kGrowthPatience = 10.0;          // time without growth of the bag until an error [s]
 
 const std::vector<std::string> kUses = {"chamber", "socket", "bench"};
 const std::vector<std::string> kMounts = {"fixture", "mould", "limb", "liner", "socket_wall"};
@@ -71,7 +71,8 @@ SessionServer::SessionServer(const ros::NodeHandle& handle, const ros::NodeHandl
 }
 
 void SessionServer::watchRecording(const std::string& bag, double least_space) {
-  recording_ = std::make_unique<RecordingWatch>(static_cast<std::uint64_t>(least_space * 1e6), kPatience);
+  recording_ =
+      std::make_unique<RecordingWatch>(static_cast<std::uint64_t>(least_space * 1e6), kGrowthPatience);
   diagnostics_ = std::make_unique<diagnostic_updater::Updater>();
   diagnostics_->setHardwareID(bag);
   diagnostics_->add("recording", [this, bag](auto& status) { judgeRecording(bag, status); });
@@ -83,7 +84,7 @@ void SessionServer::judgeRecording(const std::string& bag,
                                    diagnostic_updater::DiagnosticStatusWrapper& status) {
   recording_->judge(lookAtRecording(bag), ros::SteadyTime::now().toSec(), status);
   if (status.level == diagnostic_msgs::DiagnosticStatus::ERROR) {
-    ROS_ERROR_STREAM_THROTTLE(kComplaintPeriod, status.message);
+    ROS_ERROR_STREAM_THROTTLE(kSessionComplaintPeriod, status.message);
   }
 }
 

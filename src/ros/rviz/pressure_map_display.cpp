@@ -17,9 +17,8 @@ namespace fsr_rviz {
 namespace {
 
 constexpr float kMostKilopascal = 10000;
-constexpr double kUsualRange = 600e3;     // until a calibration tells its own [Pa]
-constexpr double kDeviationShare = 0.1;   // of the pressures' range: a good map has a few per cent
-constexpr std::uint32_t kQueueSize = 10;  // [messages]
+constexpr double kUsualRange = 600e3;    // until a calibration tells its own [Pa]
+constexpr double kDeviationShare = 0.1;  // of the pressures' range: a good map has a few per cent
 
 }  // namespace
 

@@ -34,10 +34,10 @@ namespace {
 
 using fsr_pressure_map::PressureStatistics;
 
-constexpr double kSilence = 3.0;         // age after which a number is no longer shown [s]
+constexpr double kStale = 3.0;           // age after which a number is no longer shown [s]
 constexpr int kRefresh = 200;            // [ms]
 constexpr double kStandardAir = 101325;  // ambient pressure without matrix_info [Pa]
-constexpr std::uint32_t kQueueSize = 10;
+constexpr std::uint32_t kPanelQueue = 10;
 constexpr double kReadable = 3.0;  // an answer stays this long after the instruction has changed [s]
 constexpr int kLines = 3;          // the longest instruction has as many in a panel as wide as the coverage
 
@@ -70,7 +70,7 @@ std::string PressurePanel::answerOf(const std::string& service, Service& call) {
 
 template <typename Message>
 bool PressurePanel::Last<Message>::fresh() const {
-  return message && (ros::WallTime::now() - received).toSec() < kSilence;
+  return message && (ros::WallTime::now() - received).toSec() < kStale;
 }
 
 PressurePanel::PressurePanel(QWidget* parent) : Panel(parent) {
@@ -276,7 +276,7 @@ void PressurePanel::keep(const std::string& topic, Last<Message>& last) {
     last.message = message;
     last.received = ros::WallTime::now();
   };
-  subscribers_.push_back(handle_.subscribe<Message>(name(topic), kQueueSize, store));
+  subscribers_.push_back(handle_.subscribe<Message>(name(topic), kPanelQueue, store));
 }
 
 void PressurePanel::listen() {
@@ -285,7 +285,7 @@ void PressurePanel::listen() {
   rest_values_.clear();
   try {
     subscribers_.push_back(handle_.subscribe<diagnostic_msgs::DiagnosticArray>(
-        "/diagnostics", kQueueSize, [this](const diagnostic_msgs::DiagnosticArrayConstPtr& all) {
+        "/diagnostics", kPanelQueue, [this](const diagnostic_msgs::DiagnosticArrayConstPtr& all) {
           keepComplaints(*all);
           keepRest(*all);
         }));
@@ -332,7 +332,7 @@ void PressurePanel::keepRest(const diagnostic_msgs::DiagnosticArray& diagnostics
 }
 
 void PressurePanel::showRest() {
-  if ((ros::WallTime::now() - rest_received_).toSec() > kSilence) rest_values_.clear();
+  if ((ros::WallTime::now() - rest_received_).toSec() > kStale) rest_values_.clear();
   const PanelLine line = restLine(rest_values_);
   rest_->setText(line.text);
   rest_->setStyleSheet(line.style);
@@ -439,7 +439,7 @@ void PressurePanel::showWaiting() {
   want(last_surface_.message != nullptr, "curvature", "the surface is unknown.");
   want(last_session_.fresh(), "session", "events can be marked while record.launch runs.");
   for (const auto& [status, complaint] : complaints_) {
-    if ((ros::WallTime::now() - complaint.received).toSec() < kSilence)
+    if ((ros::WallTime::now() - complaint.received).toSec() < kStale)
       lines << "Driver: " + text(complaint.sentence);
   }
   waiting_->setText(lines.join("\n"));

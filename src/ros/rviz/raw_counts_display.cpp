@@ -11,7 +11,6 @@ namespace fsr_rviz {
 
 namespace {
 
-constexpr std::uint32_t kQueueSize = 10;  // [messages]
 constexpr double kUsualFullScale = 4095;  // until the first scan
 
 fsr::matrix::Layout layoutOf(const fsr_pressure_map::MatrixFrame& scan,

@@ -21,8 +21,6 @@ namespace fsr_rviz {
 
 namespace {
 
-constexpr std::uint32_t kQueueSize = 10;  // [messages]
-
 // A title with the mean of all taxels that have a value, e.g. "flat only: mean 329 kPa"; empty without one.
 std::string titleLine(const std::string& title, const SheetPicture& picture) {
   if (title.empty()) return title;

@@ -5,6 +5,7 @@
 #include <ros/time.h>
 #include <rviz/display.h>
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -31,6 +32,8 @@ class VectorProperty;
 }  // namespace rviz
 
 namespace fsr_rviz {
+
+constexpr std::uint32_t kQueueSize = 10;  ///< of the topics of a display [messages]
 
 /// A property with a choice of names. Its option value is the index in `options`.
 rviz::EnumProperty* choice(const char* name, const std::vector<std::string>& options, const char* help,

@@ -11,8 +11,8 @@ namespace fsr_rviz {
 namespace {
 
 // As parts of the sheet's longer side, so that the title of any matrix is as large on the screen.
-constexpr double kHeight = 0.065;  // of a capital letter
-constexpr double kGap = 0.11;      // to the sheet's edge
+constexpr double kTitleHeight = 0.065;  // of a capital letter
+constexpr double kTitleGap = 0.11;      // to the sheet's edge
 
 double longerSide(const fsr::matrix::Layout& layout) {
   return std::max(layout.pitch_x * layout.size.columns, layout.pitch_y * layout.size.rows);
@@ -21,7 +21,7 @@ double longerSide(const fsr::matrix::Layout& layout) {
 }  // namespace
 
 double SheetTitle::reach(const fsr::matrix::Layout& layout) {
-  return 0.5 * layout.pitch_y * layout.size.rows + (kGap + kHeight) * longerSide(layout);
+  return 0.5 * layout.pitch_y * layout.size.rows + (kTitleGap + kTitleHeight) * longerSide(layout);
 }
 
 SheetTitle::SheetTitle(Ogre::SceneManager* scene, Ogre::SceneNode* parent)
@@ -41,7 +41,7 @@ SheetTitle::~SheetTitle() {
 void SheetTitle::show(const std::string& text, const fsr::matrix::Layout& layout) {
   if (text.empty()) return hide();
   text_->setCaption(text);
-  const double letter = kHeight * longerSide(layout);
+  const double letter = kTitleHeight * longerSide(layout);
   text_->setCharacterHeight(static_cast<Ogre::Real>(letter));
   node_->setPosition(0, static_cast<Ogre::Real>(letter - reach(layout)), 0);
   node_->setVisible(true);

@@ -13,8 +13,8 @@ namespace fsr_rviz {
 namespace {
 
 constexpr double kMarkLift =
-    0.0004;                          // height of the strokes above the surface, so that they stay visible [m]
-constexpr double kMarkWidth = 0.06;  // width of a stroke, as a part of a taxel's side
+    0.0004;  // height of the strokes above the surface, so that they stay visible [m]
+constexpr double kStrokeWidth = 0.06;  // width of a stroke, as a part of a taxel's side
 
 Ogre::Vector3 toOgre(const fsr::view::Vector3& v) {
   return {static_cast<Ogre::Real>(v.x), static_cast<Ogre::Real>(v.y), static_cast<Ogre::Real>(v.z)};
@@ -47,7 +47,7 @@ Ogre::MaterialPtr plainMaterial() {
 void addBand(Ogre::ManualObject& object, const fsr::view::SheetMesh& mesh, double row, double column,
              const fsr::view::Stroke& stroke, const Ogre::ColourValue& colour) {
   const double dx = stroke.to.x - stroke.from.x, dy = stroke.to.y - stroke.from.y;
-  const double half = 0.5 * kMarkWidth / std::hypot(dx, dy);
+  const double half = 0.5 * kStrokeWidth / std::hypot(dx, dy);
   const auto corner = [&](const fsr::matrix::Position& end, double side) {
     object.position(
         toOgre(mesh.point(row + end.y + side * half * dx, column + end.x - side * half * dy, kMarkLift)));

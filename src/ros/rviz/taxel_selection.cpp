@@ -6,13 +6,7 @@
 
 namespace fsr_rviz {
 
-namespace {
-
-QString text(const std::string& words) {
-  return QString::fromStdString(words);
-}
-
-}  // namespace
+namespace {}  // namespace
 
 TaxelSelection::TaxelSelection(rviz::DisplayContext* context, SheetVisual& visual, const ShownSheet& shown,
                                std::function<ReadOut(std::size_t taxel)> read_out)
@@ -52,7 +46,8 @@ void TaxelSelection::createProperties(const rviz::Picked& picked, rviz::Property
         QString("Taxel row %1, column %2").arg(layout.row({taxel})).arg(layout.column({taxel})), QVariant(),
         "", parent);
     for (const auto& [name, value] : read_out_(taxel)) {
-      (new rviz::Property(text(name), text(value), "", group))->setReadOnly(true);
+      (new rviz::Property(QString::fromStdString(name), QString::fromStdString(value), "", group))
+          ->setReadOnly(true);
     }
     group->setReadOnly(true);
     group->expand();

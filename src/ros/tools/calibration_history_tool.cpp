@@ -17,9 +17,8 @@
 #include "report/life/life_report.h"
 #include "ros/bags/bag_walk.h"
 #include "ros/bags/sensor_topics.h"
-#include "ros/tools/bag_options.h"
 #include "ros/tools/figure_script.h"
-#include "ros/tools/tool_progress.h"
+#include "ros/tools/tool_options.h"
 #include "settings/command_line.h"
 #include "settings/file_kind.h"
 #include "settings/foreign_error.h"
@@ -34,10 +33,8 @@ namespace life = fsr::life;
 using fsr::calibration::Calibration;
 using fsr::settings::InputError;
 
-constexpr int kSkipped = 1;         // exit status if a file could not be used
-constexpr int kFiguresMissing = 3;  // if only the figures could not be drawn
-
-fsr::settings::CommandLine options() {
+constexpr int kSkipped = 1;  // exit status if a file could not be used
+fsr::settings::CommandLine calibrationHistoryOptions() {
   fsr::settings::CommandLine line(
       "calibration_history", "DIR [--output DIR]",
       "Shows how each sheet changed from date to date. It reads the bags and calibration files in a folder "
@@ -258,14 +255,8 @@ class History {
   std::vector<fsr::report::SkippedFile> skipped_;
 };
 
-fs::path outputFolder(const fsr::settings::CommandLine& line) {
-  const fs::path folder = fs::absolute(line.text("output", "")).lexically_normal();
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (!fs::is_directory(folder)) {
-    throw InputError(folder.string() + ": the folder cannot be created (" + error.message() +
-                     "); give another one with --output");
-  }
+fs::path historyFolder(const fsr::settings::CommandLine& line) {
+  const fs::path folder = outputFolder(line.text("output", ""));
   line.requireWritable((folder / "life.csv").string(), fsr::settings::file_kind::kTable);
   line.requireWritable((folder / "life.json").string(), fsr::settings::file_kind::kJson);
   return folder;
@@ -291,7 +282,7 @@ bool write(const fs::path& folder, const History& history, const std::vector<lif
 }  // namespace
 
 int calibrationHistoryTool(int argc, const char* const* argv, std::ostream& out) {
-  fsr::settings::CommandLine line = options();
+  fsr::settings::CommandLine line = calibrationHistoryOptions();
   if (!line.parse(argc, argv)) {
     out << line.help();
     return 0;
@@ -303,7 +294,7 @@ int calibrationHistoryTool(int argc, const char* const* argv, std::ostream& out)
   line.number("level", 0.01, {1e-4, 0.2, ""});  // before the bags are read
   const std::vector<FoundFile> files = filesIn(line.files().front());
   std::optional<fs::path> folder;
-  if (line.has("output")) folder = outputFolder(line);
+  if (line.has("output")) folder = historyFolder(line);
   History history(line);
   history.read(files);
   const std::vector<life::SheetLife> lives = history.lives();

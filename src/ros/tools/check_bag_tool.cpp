@@ -16,8 +16,7 @@
 #include "report/shape_report.h"
 #include "ros/bags/bag_topics.h"
 #include "ros/bags/bag_walk.h"
-#include "ros/tools/bag_options.h"
-#include "ros/tools/tool_progress.h"
+#include "ros/tools/tool_options.h"
 #include "settings/command_line.h"
 
 namespace fsr_ros {
@@ -26,7 +25,7 @@ namespace {
 
 constexpr int kNotFit = 1;  // exit status with --strict
 
-fsr::settings::CommandLine options() {
+fsr::settings::CommandLine checkBagOptions() {
   fsr::settings::CommandLine line(
       "check_bag", "[--use socket] [--calibration FILE] BAG...",
       "Checks recordings before they are used: topics, rates, gaps and stamps; lag between matrix and "
@@ -148,7 +147,7 @@ int checkSockets(const fsr::settings::CommandLine& line, std::ostream& out) {
 }  // namespace
 
 int checkBagTool(int argc, const char* const* argv, std::ostream& out) {
-  fsr::settings::CommandLine line = options();
+  fsr::settings::CommandLine line = checkBagOptions();
   if (!line.parse(argc, argv)) {
     out << line.help();
     return 0;

@@ -7,7 +7,7 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "ros/bags/rescue_bag.h"
 #include "ros/programs/sibling_program.h"
-#include "ros/tools/tool_progress.h"
+#include "ros/tools/tool_options.h"
 #include "session/day_report.h"
 #include "session/plan_file.h"
 #include "session/session_files.h"
@@ -27,7 +27,7 @@ using Words = std::vector<std::string>;
 
 constexpr int kRefused = 1;  // exit status if a part has no result, or a bag of the session is not in it
 
-fsr::settings::CommandLine options() {
+fsr::settings::CommandLine dayReportOptions() {
   fsr::settings::CommandLine line(
       "day_report", "DIR",
       "Writes the report of a conducted session. It says what was recorded, how good the calibration is, "
@@ -52,20 +52,9 @@ std::string contentOf(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// A word as a shell reads it.
-std::string quoted(const std::string& word) {
-  const bool plain = !word.empty() && word.find_first_not_of(
-                                          "abcdefghijklmnopqrstuvwxyz"
-                                          "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./") == std::string::npos;
-  if (plain) return word;
-  std::string text = "'";
-  for (const char one : word) text += one == '\'' ? std::string("'\\''") : std::string(1, one);
-  return text + "'";
-}
-
 std::string commandOf(const std::string& tool, const Words& words) {
   std::string command = "rosrun fsr_pressure_map " + tool;
-  for (const std::string& word : words) command += " " + quoted(word);
+  for (const std::string& word : words) command += " " + shellWord(word);
   return command;
 }
 
@@ -169,7 +158,7 @@ void checkOptions(const fsr::settings::CommandLine& line) {
 }  // namespace
 
 int dayReportTool(int argc, const char* const* argv, std::ostream& out) {
-  fsr::settings::CommandLine line = options();
+  fsr::settings::CommandLine line = dayReportOptions();
   if (!line.parse(argc, argv)) {
     out << line.help();
     return 0;

@@ -38,17 +38,6 @@ void writeSimulation(const fsr::simulation::SimulationSettings& settings, const 
 
 }  // namespace
 
-std::string outputFolder(const std::string& path) {
-  const fs::path folder = fs::absolute(path).lexically_normal();
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (!fs::is_directory(folder)) {
-    throw fsr::settings::InputError(folder.string() + ": the folder cannot be created (" + error.message() +
-                                    "); give another one with --output");
-  }
-  return folder;
-}
-
 std::map<std::string, std::string> discrepancyFiles() {
   using fsr::settings::kindOf;
   const std::string simulation = kindOf("simulation: x");

@@ -8,10 +8,6 @@
 
 namespace fsr_ros {
 
-/// Creates a folder if it does not exist, and returns its absolute path. Throws fsr::InputError if it cannot
-/// be created.
-std::string outputFolder(const std::string& path);
-
 /// The files at the top of the folder that writeDiscrepancy() replaces, with their kinds (kindOf()).
 std::map<std::string, std::string> discrepancyFiles();
 

@@ -14,13 +14,12 @@
 #include "ros/bags/bag_topics.h"
 #include "ros/bags/bag_walk.h"
 #include "ros/bags/resource_path.h"
-#include "ros/tools/bag_options.h"
 #include "ros/tools/discrepancy_files.h"
 #include "ros/tools/figure_script.h"
 #include "ros/tools/map_gain.h"
 #include "ros/tools/recompute_gap_tool.h"
 #include "ros/tools/show_ledger.h"
-#include "ros/tools/tool_progress.h"
+#include "ros/tools/tool_options.h"
 #include "settings/command_line.h"
 #include "settings/replace_file.h"
 #include "simulation/driven_rig.h"
@@ -31,10 +30,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kFiguresMissing = 3;  // exit status if only the figures could not be drawn
 constexpr char kDefaultSimulation[] = "package://fsr_pressure_map/config/simulation/core.yaml";
 
-fsr::settings::CommandLine options() {
+fsr::settings::CommandLine discrepancyOptions() {
   fsr::settings::CommandLine line(
       "discrepancy", "[--simulation FILE] BAG... --output DIR  |  --confirm verdict.yaml NEWBAG...",
       "Finds where a simulation and measured bags disagree, which physical effect is missing and how small "
@@ -73,7 +71,7 @@ std::vector<std::string> listOf(const fsr::settings::CommandLine& line, const st
   return items;
 }
 
-std::vector<std::string> bagsOf(const fsr::settings::CommandLine& line) {
+std::vector<std::string> measuredBags(const fsr::settings::CommandLine& line) {
   const std::vector<std::string> bags = bagsIn(line.files());
   if (bags.empty()) throw fsr::settings::InputError("no BAG is given; see discrepancy --help");
   return bags;
@@ -164,7 +162,7 @@ int find(const fsr::settings::CommandLine& line, std::ostream& out) {
   const fsr::discrepancy::DiscrepancyProgress progress = toolProgress();
   fsr::discrepancy::DiscrepancyProblem problem;
   problem.options = discrepancyOptions(line);
-  const DrivingBags bags{bagsOf(line), bagReadOptions(line)};
+  const DrivingBags bags{measuredBags(line), bagReadOptions(line)};
   problem.recordings = readBags(bags, false, progress);
   const bool changes = std::any_of(problem.recordings.begin(), problem.recordings.end(),
                                    [](const auto& recording) { return recording.losses.near_change > 0; });
@@ -219,7 +217,7 @@ int confirmVerdict(const fsr::settings::CommandLine& line, std::ostream& out) {
                                     ", which predicts nothing that can be confirmed");
   }
   const std::vector<fsr::dataset::Recording> recordings =
-      readBags({bagsOf(line), bagReadOptions(line)}, false, toolProgress());
+      readBags({measuredBags(line), bagReadOptions(line)}, false, toolProgress());
   requireNew(recordings, verdict, stored.frozen.readings_sha256, path);
   fsr::discrepancy::Confirmation answer =
       fsr::discrepancy::confirm(stored.frozen.prediction, stored.base, recordings);
@@ -250,7 +248,7 @@ std::vector<const char*> withoutRemappings(int argc, const char* const* argv) {
 }  // namespace
 
 int discrepancyTool(int argc, const char* const* argv, std::ostream& out) {
-  fsr::settings::CommandLine line = options();
+  fsr::settings::CommandLine line = discrepancyOptions();
   const std::vector<const char*> words = withoutRemappings(argc, argv);
   if (!line.parse(static_cast<int>(words.size()), words.data())) {
     out << line.help();

@@ -8,8 +8,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "ros/bags/scan_source.h"
-#include "ros/tools/bag_options.h"
-#include "ros/tools/tool_progress.h"
+#include "ros/tools/tool_options.h"
 #include "settings/command_line.h"
 
 namespace fsr_ros {
@@ -55,10 +54,6 @@ ScanSelection selectionOf(const fsr::settings::CommandLine& line) {
                                     ", but must not be later than --until, " + line.text("until", ""));
   }
   return selection;
-}
-
-std::string fullPath(const std::string& path) {
-  return fs::absolute(path).lexically_normal().string();
 }
 
 void writeScans(const ScanFormat& format, const fsr::settings::CommandLine& line, std::ostream& out) {

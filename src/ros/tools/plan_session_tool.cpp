@@ -24,7 +24,7 @@ using fsr::settings::InputError;
 
 constexpr char kSurfaces[] = "flat,cylinder_5cm,cylinder_7cm,cylinder_9cm,cylinder_11cm,cylinder_13cm";
 
-fsr::settings::CommandLine options() {
+fsr::settings::CommandLine planSessionOptions() {
   fsr::settings::CommandLine line(
       "plan_session", "--for NAME --minutes N --output PLAN.yaml, or PLAN.yaml [--steps]",
       "Writes a plan for a session at the rig, which fits the time, or describes one. It says what is "
@@ -45,7 +45,7 @@ fsr::settings::CommandLine options() {
   return line;
 }
 
-std::string folderOf(const fsr::settings::CommandLine& line) {
+std::string surfaceFolderOf(const fsr::settings::CommandLine& line) {
   return line.has("surface-folder") ? line.text("surface-folder", "")
                                     : resolveResource(SurfaceFolder::shipped());
 }
@@ -83,7 +83,7 @@ plans::PlanRequest requestIn(const fsr::settings::CommandLine& line) {
       static_cast<std::uint16_t>(line.integer("rows", 7, {1, fsr::matrix::kMaxMatrixSide, ""}));
   request.matrix.columns =
       static_cast<std::uint16_t>(line.integer("columns", 10, {1, fsr::matrix::kMaxMatrixSide, ""}));
-  const std::string folder = folderOf(line);
+  const std::string folder = surfaceFolderOf(line);
   for (const std::string& name : namesIn(line))
     request.surfaces.push_back(
         plans::surfaceInFolder(name, folder, request.matrix, "--surfaces names \"" + name + "\""));
@@ -122,7 +122,7 @@ void propose(const fsr::settings::CommandLine& line, std::ostream& out) {
 }  // namespace
 
 int planSessionTool(int argc, const char* const* argv, std::ostream& out) {
-  fsr::settings::CommandLine line = options();
+  fsr::settings::CommandLine line = planSessionOptions();
   if (!line.parse(argc, argv)) {
     out << line.help();
     return 0;

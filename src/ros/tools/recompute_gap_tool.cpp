@@ -8,8 +8,7 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "report/verdict_file.h"
 #include "ros/bags/bag_walk.h"
-#include "ros/tools/bag_options.h"
-#include "ros/tools/tool_progress.h"
+#include "ros/tools/tool_options.h"
 #include "settings/number_text.h"
 #include "settings/yaml_text.h"
 
@@ -76,18 +75,6 @@ double statedOn(const fsr::report::VerdictFile& verdict, const std::string& surf
   return NAN;
 }
 
-// A word of a shell.
-std::string quoted(const std::string& word) {
-  const bool plain = !word.empty() && std::all_of(word.begin(), word.end(), [](unsigned char c) {
-    return std::isalnum(c) || c == '_' || c == '-' || c == '.' || c == '/' || c == '+' || c == ',' ||
-           c == '=';
-  });
-  if (plain) return word;
-  std::string result = "'";
-  for (const char c : word) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return result + "'";
-}
-
 }  // namespace
 
 int printRecomputedGap(const std::string& path, const DrivingBags& bags, std::ostream& out) {
@@ -113,12 +100,12 @@ int printRecomputedGap(const std::string& path, const DrivingBags& bags, std::os
 }
 
 std::string recomputeCommand(const std::string& verdict, const DrivingBags& bags) {
-  std::string command = "rosrun fsr_pressure_map simulate --gap " + quoted(verdict);
-  if (!bags.how.topics.empty()) command += " --namespace " + quoted(bags.how.topics);
+  std::string command = "rosrun fsr_pressure_map simulate --gap " + shellWord(verdict);
+  if (!bags.how.topics.empty()) command += " --namespace " + shellWord(bags.how.topics);
   if (bags.how.ambient_pressure)
     command += " --ambient " + fsr::settings::numberText(*bags.how.ambient_pressure);
   command += " --drive";
-  for (const std::string& path : bags.paths) command += " " + quoted(path);
+  for (const std::string& path : bags.paths) command += " " + shellWord(path);
   return command;
 }
 

@@ -18,7 +18,7 @@
 #include "ros/bags/bag_stream.h"
 #include "ros/bags/fresh_bag.h"
 #include "ros/messages/message_reader.h"
-#include "ros/tools/tool_progress.h"
+#include "ros/tools/tool_options.h"
 #include "settings/command_line.h"
 #include "settings/file_kind.h"
 #include "settings/replace_file.h"

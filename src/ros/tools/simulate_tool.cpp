@@ -10,9 +10,9 @@
 #include "report/portrait_json.h"
 #include "report/shard_file.h"
 #include "ros/bags/simulated_bags.h"
-#include "ros/tools/bag_options.h"
 #include "ros/tools/figure_script.h"
 #include "ros/tools/recompute_gap_tool.h"
+#include "ros/tools/tool_options.h"
 #include "session/plan_file.h"
 #include "session/plan_steps.h"
 #include "settings/command_line.h"
@@ -31,9 +31,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kTruth = "truth.yaml";
-constexpr int kFiguresMissing = 3;  // exit status if only the figures could not be drawn
-
-fsr::settings::CommandLine options() {
+fsr::settings::CommandLine simulateOptions() {
   fsr::settings::CommandLine line(
       "simulate",
       "--simulation FILE [--drive BAG...] --output DIR  |  --gap verdict.yaml --drive BAG...  |  "
@@ -93,22 +91,11 @@ fsr::simulation::SimulationSettings settingsOf(const fsr::settings::CommandLine&
   return line.has("effect") ? fsr::simulation::withEffect(settings, line.text("effect", "")) : settings;
 }
 
-std::string folderOf(const fsr::settings::CommandLine& line) {
-  const fs::path folder = fs::absolute(line.requiredText("output")).lexically_normal();
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (!fs::is_directory(folder)) {
-    throw fsr::settings::InputError(folder.string() + ": the folder cannot be created (" + error.message() +
-                                    "); give another one with --output");
-  }
-  return folder;
-}
-
 // Creates the output folder. The destructor removes it again if it is new and still empty.
 class TidyFolder {
  public:
   explicit TidyFolder(const fsr::settings::CommandLine& line)
-      : is_new_(!fs::exists(line.requiredText("output"))), path_(folderOf(line)) {}
+      : is_new_(!fs::exists(line.requiredText("output"))), path_(outputFolder(line.requiredText("output"))) {}
   ~TidyFolder() {
     std::error_code ignored;
     if (is_new_ && fs::is_empty(path_, ignored)) fs::remove(path_, ignored);
@@ -133,7 +120,7 @@ void refuseRecordedBags(const fs::path& folder) {
   }
 }
 
-std::vector<std::string> bagsOf(const fsr::settings::CommandLine& line) {
+std::vector<std::string> drivingBags(const fsr::settings::CommandLine& line) {
   std::vector<std::string> bags = line.files();
   if (line.has("drive")) {
     bags.insert(bags.begin(), line.text("drive", ""));
@@ -176,14 +163,14 @@ std::string remarkOf(const fsr::settings::CommandLine& line, const std::vector<s
 }
 
 int recompute(const fsr::settings::CommandLine& line, std::ostream& out) {
-  const DrivingBags bags{bagsOf(line), bagReadOptions(line)};
+  const DrivingBags bags{drivingBags(line), bagReadOptions(line)};
   if (bags.paths.empty()) throw fsr::settings::InputError("--gap: give the bags of the verdict with --drive");
   return printRecomputedGap(line.text("gap", ""), bags, out);
 }
 
 void writeBags(const fsr::settings::CommandLine& line, const fsr::simulation::SimulationSettings& settings,
                std::ostream& out) {
-  const DrivingBags driving{bagsIn(bagsOf(line)), bagReadOptions(line)};
+  const DrivingBags driving{bagsIn(drivingBags(line)), bagReadOptions(line)};
   if (line.has("plan") && !driving.paths.empty())
     throw fsr::settings::InputError("--plan and --drive both say what the chamber does; give one of them");
   const std::string saved = line.text("save-state", "");
@@ -255,7 +242,7 @@ void writeSheet(const fsr::simulation::SimulationSettings& settings, const fs::p
 void writeSheets(const fsr::settings::CommandLine& line, const fsr::simulation::SimulationSettings& settings,
                  std::ostream& out) {
   refuseOtherRuns(line);
-  bagsOf(line);  // refuses bags without --drive
+  drivingBags(line);  // refuses bags without --drive
   const auto sheets = static_cast<std::size_t>(line.integer("sheets", 1, {1, 1e6, ""}));
   fsr::report::ShardFile file{"simulate", {}, {}, {}, {}};
   if (line.has("shard")) file.shard = fsr::report::readShard(line.text("shard", ""));
@@ -293,7 +280,7 @@ int drawPlot(const fsr::settings::CommandLine& line, const fsr::simulation::Simu
   const std::string id = line.text("effect", "");
   fsr::simulation::SimulationSettings titled = settings;
   if (!id.empty()) titled.name = id;
-  const fs::path folder = folderOf(line), data = folder / (titled.name + ".json"),
+  const fs::path folder = outputFolder(line.requiredText("output")), data = folder / (titled.name + ".json"),
                  stem = folder / titled.name;
   const auto before = id.empty() ? coreOf(settings) : withoutEffect(settings, id);
   fsr::simulation::Portrait portrait = portray(titled, before);
@@ -323,7 +310,7 @@ std::string listOf(const std::string& id) {
 }  // namespace
 
 int simulateTool(int argc, const char* const* argv, std::ostream& out) {
-  fsr::settings::CommandLine line = options();
+  fsr::settings::CommandLine line = simulateOptions();
   if (!line.parse(argc, argv)) {
     out << line.help();
     return 0;

@@ -7,10 +7,9 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "report/study/study_report.h"
 #include "ros/bags/bag_walk.h"
-#include "ros/tools/bag_options.h"
 #include "ros/tools/figure_script.h"
 #include "ros/tools/study_shards.h"
-#include "ros/tools/tool_progress.h"
+#include "ros/tools/tool_options.h"
 #include "settings/command_line.h"
 #include "settings/file_kind.h"
 #include "settings/replace_file.h"
@@ -25,9 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kFiguresMissing = 3;  // exit status if only the figures could not be drawn
-
-fsr::settings::CommandLine options() {
+fsr::settings::CommandLine studyOptions() {
   fsr::settings::CommandLine line(
       "study", "BAG... --output DIR  |  --simulation FILE --output DIR  |  --merge [SHARD...] --output DIR",
       "Repeats the study of Ahmadizadeh and Menon (Sensors 2019, 19(24), 5519, doi:10.3390/s19245519) on "
@@ -52,10 +49,6 @@ fsr::settings::CommandLine options() {
       .flag("merge",
             "write the results from the files of all shards (shard_I_of_N.json), default: those in --output");
   return line;
-}
-
-unsigned threadsOf(const fsr::settings::CommandLine& line) {
-  return static_cast<unsigned>(line.integer("threads", 0, {0, 1024, ""}));
 }
 
 fsr::study::StudyPlan planOf(const fsr::settings::CommandLine& line) {
@@ -101,17 +94,6 @@ fsr::study::StudyProblem problemOf(const fsr::settings::CommandLine& line, const
   return problem;
 }
 
-fs::path folderOf(const fsr::settings::CommandLine& line) {
-  const fs::path folder = fs::absolute(line.requiredText("output")).lexically_normal();
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (!fs::is_directory(folder)) {
-    throw fsr::settings::InputError(folder.string() + ": the folder cannot be created (" + error.message() +
-                                    "); give another one with --output");
-  }
-  return folder;
-}
-
 void write(const fs::path& folder, const fsr::study::StudyResult& result) {
   fsr::settings::replaceFile((folder / "results.json").string(), fsr::report::studyJson(result));
   fs::create_directories(folder / "tables");
@@ -152,7 +134,7 @@ fsr::study::StudyParts computed(const fsr::settings::CommandLine& line, StudySha
 
 void writeShard(const fsr::settings::CommandLine& line, StudyShard& shard, std::ostream& out) {
   shard.shard = fsr::report::readShard(line.text("shard", ""));
-  shard.folder = folderOf(line);
+  shard.folder = outputFolder(line.requiredText("output"));
   line.requireWritable(shard.path(), fsr::settings::file_kind::kJson);
   fs::remove(shard.path());  // a shard that is killed leaves none
   writeStudyShard(shard, computed(line, shard), out);
@@ -161,7 +143,7 @@ void writeShard(const fsr::settings::CommandLine& line, StudyShard& shard, std::
 }  // namespace
 
 int studyTool(int argc, const char* const* argv, std::ostream& out) {
-  fsr::settings::CommandLine line = options();
+  fsr::settings::CommandLine line = studyOptions();
   if (!line.parse(argc, argv)) {
     out << line.help();
     return 0;
@@ -171,7 +153,7 @@ int studyTool(int argc, const char* const* argv, std::ostream& out) {
     writeShard(line, shard, out);
     return 0;
   }
-  const fs::path folder = folderOf(line);
+  const fs::path folder = outputFolder(line.requiredText("output"));
   line.requireWritable((folder / "results.json").string(), fsr::settings::file_kind::kJson);
   const fsr::study::StudyResult result =
       line.has("merge") ? merged(line) : fsr::study::joinParts(computed(line, shard));

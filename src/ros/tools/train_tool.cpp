@@ -21,9 +21,8 @@
 #include "report/recheck_report.h"
 #include "ros/bags/bag_topics.h"
 #include "ros/bags/bag_walk.h"
-#include "ros/tools/bag_options.h"
 #include "ros/tools/history_option.h"
-#include "ros/tools/tool_progress.h"
+#include "ros/tools/tool_options.h"
 #include "settings/command_line.h"
 #include "settings/file_kind.h"
 #include "settings/replace_file.h"
@@ -38,7 +37,7 @@ std::string list(const std::vector<std::string>& names) {
   return text;
 }
 
-fsr::settings::CommandLine options() {
+fsr::settings::CommandLine trainOptions() {
   fsr::settings::CommandLine line(
       "train",
       "BAG... --output FILE, or --merge CALIBRATION... --output FILE, or --check FILE BAG..., or --correct "
@@ -139,10 +138,6 @@ fsr::calibration::ZeroChoice zeroChoice(const std::string& text) {
   throw fsr::settings::InputError("--zero is \"" + text + "\", but must be auto, none or session");
 }
 
-unsigned threadsOf(const fsr::settings::CommandLine& line) {
-  return static_cast<unsigned>(line.integer("threads", 0, {0, 1024, ""}));
-}
-
 fsr::calibration::CalibrationOptions calibrationOptions(const fsr::settings::CommandLine& line,
                                                         std::ostream& out) {
   fsr::calibration::CalibrationOptions options;
@@ -174,10 +169,6 @@ std::vector<fsr::dataset::Recording> readBags(const fsr::settings::CommandLine& 
     recordings.push_back(readBag(path, options));
   }
   return recordings;
-}
-
-std::string fullPath(const std::string& path) {
-  return std::filesystem::absolute(path).lexically_normal().string();
 }
 
 int check(const fsr::settings::CommandLine& line, std::ostream& out) {
@@ -301,7 +292,7 @@ fsr::calibration::Calibration train(const fsr::settings::CommandLine& line, std:
 }  // namespace
 
 int trainTool(int argc, const char* const* argv, std::ostream& out) {
-  fsr::settings::CommandLine line = options();
+  fsr::settings::CommandLine line = trainOptions();
   if (!line.parse(argc, argv)) {
     out << line.help();
     return 0;

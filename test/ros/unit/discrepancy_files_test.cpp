@@ -12,6 +12,7 @@
 #include "report/verdict_file.h"
 #include "ros/tools/figure_script.h"
 #include "ros/tools/show_ledger.h"
+#include "ros/tools/tool_options.h"
 #include "support/example_discrepancy.h"
 #include "support/source_dir.h"
 

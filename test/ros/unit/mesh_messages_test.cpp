@@ -44,12 +44,12 @@ TEST(MeshMessages, ASurfaceWithoutAMeshDeletesTheMarker) {
 }
 
 TEST(MeshMessages, TheTransformIsTheMatrixInTheFrameOfTheMesh) {
-  const tf2_msgs::TFMessage message = toTransform(headerOf("fsr_matrix"), "socket", place().matrix);
-  ASSERT_EQ(message.transforms.size(), 1u);
-  EXPECT_EQ(message.transforms[0].header.frame_id, "socket");
-  EXPECT_EQ(message.transforms[0].child_frame_id, "fsr_matrix");
-  EXPECT_EQ(message.transforms[0].transform.translation.x, 0.05);
-  EXPECT_NEAR(message.transforms[0].transform.rotation.z, std::sqrt(0.5), 1e-15);
+  const geometry_msgs::TransformStamped transform =
+      toTransform(headerOf("fsr_matrix"), "socket", place().matrix);
+  EXPECT_EQ(transform.header.frame_id, "socket");
+  EXPECT_EQ(transform.child_frame_id, "fsr_matrix");
+  EXPECT_EQ(transform.transform.translation.x, 0.05);
+  EXPECT_NEAR(transform.transform.rotation.z, std::sqrt(0.5), 1e-15);
 }
 
 TEST(MeshMessages, AUrlHasNoOtherCharactersThanAUrlMayHave) {

@@ -1,10 +1,13 @@
-#include "ros/tools/bag_options.h"
+#include "ros/tools/tool_options.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cstdlib>
 #include <filesystem>
+#include <memory>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "settings/progress.h"
 
 namespace fsr_ros {
 
@@ -20,6 +23,42 @@ bool comesFirst(const fs::path& a, const fs::path& b) {
 }
 
 }  // namespace
+
+ToolProgress toolProgress() {
+  return [progress = std::make_shared<fsr::settings::Progress>()](const std::string& step, double share) {
+    progress->report(step, share);
+  };
+}
+
+unsigned threadsOf(const fsr::settings::CommandLine& line) {
+  return static_cast<unsigned>(line.integer("threads", 0, {0, 1024, ""}));
+}
+
+std::string fullPath(const std::string& path) {
+  return fs::absolute(path).lexically_normal().string();
+}
+
+std::string outputFolder(const std::string& path) {
+  const fs::path folder = fs::absolute(path).lexically_normal();
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!fs::is_directory(folder)) {
+    throw fsr::settings::InputError(folder.string() + ": the folder cannot be created (" + error.message() +
+                                    "); give another one with --output");
+  }
+  return folder;
+}
+
+std::string shellWord(const std::string& word) {
+  const bool plain = !word.empty() && std::all_of(word.begin(), word.end(), [](unsigned char c) {
+    return std::isalnum(c) || c == '_' || c == '-' || c == '.' || c == '/' || c == '+' || c == ',' ||
+           c == '=';
+  });
+  if (plain) return word;
+  std::string result = "'";
+  for (const char c : word) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return result + "'";
+}
 
 BagReadOptions bagReadOptions(const fsr::settings::CommandLine& line) {
   BagReadOptions how;

@@ -1,0 +1,150 @@
+#include "nodes/nodes.h"
+
+#include <nodelet/nodelet.h>
+#include <ros/ros.h>
+#include <pluginlib/class_list_macros.hpp>
+
+#include <csignal>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "fsr_pressure_map/settings/input_error.h"
+#include "ros/driver/driver.h"
+#include "ros/live/calibration_server.h"
+#include "ros/live/curvature_server.h"
+#include "ros/live/limb_server.h"
+#include "ros/live/parameters.h"
+#include "ros/live/rig_emulator.h"
+#include "ros/live/serve.h"
+#include "ros/live/training_server.h"
+#include "ros/live/view_server.h"
+#include "ros/recording/rechecker.h"
+#include "ros/recording/recorder.h"
+#include "ros/recording/session_server.h"
+#include "ros/recording/wait_for_session.h"
+#include "settings/foreign_error.h"
+
+namespace fsr_ros {
+
+namespace {
+
+constexpr double kNodeletRetryPeriod = 1;  // [s]
+
+// ROS closes on SIGINT alone. kill and a closed terminal must not leave a bag without its index. A signal
+// that is ignored, as under nohup, stays so.
+void closeOnSignals() {
+  for (const int signal : {SIGTERM, SIGHUP}) {
+    if (std::signal(signal, [](int) { ros::requestShutdown(); }) == SIG_IGN) std::signal(signal, SIG_IGN);
+  }
+}
+
+// A node whose server does everything in callbacks, which come in this number of threads.
+template <typename Server, std::uint32_t threads = 1>
+int spin() {
+  return runNode([] {
+    const Server server(ros::NodeHandle{}, ros::NodeHandle{"~"});
+    ros::MultiThreadedSpinner(threads).spin();
+  });
+}
+
+int conduct() {
+  bool closed = true;
+  const int status = runNode([&] {
+    const auto server = waitForSession(ros::NodeHandle{}, ros::NodeHandle{"~"});
+    if (server == nullptr) return;
+    closeOnSignals();
+    ros::spin();
+    closed = server->finish();
+  });
+  return closed ? status : 1;
+}
+
+int recheck() {
+  bool done = false;
+  const int status = runNode([&] {
+    Rechecker rechecker(ros::NodeHandle{}, ros::NodeHandle{"~"});
+    done = rechecker.run(std::cout);
+  });
+  return status != 0 || done ? status : 1;
+}
+
+int record() {
+  bool failed = false;
+  const int status = runNode([&] {
+    Recorder recorder(ros::NodeHandle{}, ros::NodeHandle{"~"});
+    closeOnSignals();
+    ros::spin();
+    recorder.finish();
+    failed = recorder.failed();
+  });
+  return failed ? 1 : status;
+}
+
+}  // namespace
+
+int nodeMain(const std::string& name, int argc, char** argv) {
+  static const std::map<std::string, int (*)()> nodes = {
+      {"calibration", serve<CalibrationServer>},
+      {"conduct", conduct},
+      {"curvature", serve<CurvatureServer>},
+      {"driver", serve<Driver>},
+      {"limb", spin<LimbServer>},
+      {"recheck", recheck},
+      {"recorder", record},
+      {"rig_emulator", spin<RigEmulator>},
+      {"session", serve<SessionServer>},
+      {"training", spin<TrainingServer, 2>},  // messages are collected while ~train runs
+      {"view", serve<ViewServer>}};
+  ros::init(argc, argv, name == "recorder" ? "record" : name);
+  return nodes.at(name)();
+}
+
+/// A node as a nodelet. As serve() does it: where roslaunch started it, a wrong setting is said once, and
+/// tried again each second. Elsewhere the manager reports that the nodelet did not load.
+template <typename Server>
+class ServerNodelet : public nodelet::Nodelet {
+ private:
+  void onInit() override {
+    try {
+      make();
+    } catch (const fsr::settings::InputError& error) {
+      const bool waits = getPrivateNodeHandle().hasParam("launched");
+      said_ = error.what();
+      NODELET_FATAL_STREAM(said_ << (waits ? " (" + getName() + " tries again each second)" : ""));
+      if (!waits) throw;
+      again_ = getNodeHandle().createWallTimer(ros::WallDuration(kNodeletRetryPeriod),
+                                               [this](const ros::WallTimerEvent&) { makeAgain(); });
+    }
+  }
+
+  void make() {
+    fsr::settings::inSentences(
+        [this] { server_ = std::make_unique<Server>(getNodeHandle(), getPrivateNodeHandle()); });
+  }
+
+  void makeAgain() {
+    try {
+      make();
+      again_.stop();
+    } catch (const fsr::settings::InputError& error) {
+      if (said_ != error.what()) NODELET_FATAL_STREAM(error.what());
+      said_ = error.what();
+    }
+  }
+
+  ros::WallTimer again_;
+  std::string said_;
+  std::unique_ptr<Server> server_;
+};
+
+class DriverNodelet : public ServerNodelet<Driver> {};
+class CalibrationNodelet : public ServerNodelet<CalibrationServer> {};
+class ViewNodelet : public ServerNodelet<ViewServer> {};
+
+}  // namespace fsr_ros
+
+PLUGINLIB_EXPORT_CLASS(fsr_ros::DriverNodelet, nodelet::Nodelet)
+PLUGINLIB_EXPORT_CLASS(fsr_ros::CalibrationNodelet, nodelet::Nodelet)
+PLUGINLIB_EXPORT_CLASS(fsr_ros::ViewNodelet, nodelet::Nodelet)
