@@ -3,7 +3,7 @@
 #include <csignal>
 
 #include "ros/live/parameters.h"
-#include "ros/recording/wait_for_session.h"
+#include "ros/recording/conduct_server.h"
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "conduct");

@@ -54,11 +54,11 @@ Task toTask(const Instruction& now) {
   task.step = static_cast<std::uint32_t>(now.step);
   task.surface = now.surface;
   task.mount = now.mount;
-  task.cycle = now.cycle;
-  task.cycles = now.cycles;
+  task.cycle = now.number;
+  task.cycles = now.of;
   task.low = now.low;
   task.peak = now.peak;
-  task.rate = now.rate;
+  task.rate = now.fill_rate > 0 ? now.fill_rate : now.vent_rate;
   task.dwell_peak = now.dwell_peak;
   task.dwell_rest = now.dwell_rest;
   task.duration = now.duration;
