@@ -1,4 +1,4 @@
-"""A conducted day at the emulated rig, for scripts/demo --day: an operator, who makes mistakes, follows the conductor through a plan.
+"""A conducted day at the emulated rig, for scripts/demo --day: an operator follows the conductor through a plan.
 
 Nothing is called between the three launch files and the report of the day."""
 import contextlib
@@ -11,23 +11,20 @@ from demo_tools import Failure, process, run_tool, serves, wait_until
 NAMESPACE = "fsr"
 MINUTES = 45          # of rig time that the plan may take
 REPORT = 900          # that check_bag, train and discrepancy may take for the report [s]
-MISTAKES = "peak_too_low@8,board_unplugged@20,too_fast@30"  # NAME@STEP, src/emulator/mistakes.cpp
 SURFACES = pathlib.Path(__file__).resolve().parent.parent / "config/surfaces"
 
 
 class Listener:
-    """Hears what the conductor says, and what the operator does wrong."""
+    """Hears what the conductor says."""
 
     def __init__(self, say):
         import rospy
         from fsr_pressure_map.msg import Instruction
-        from std_msgs.msg import String
-        self.say, self.over, self.step, self.remark, self.mistakes = say, threading.Event(), None, "", ""
+        self.say, self.over, self.step, self.remark = say, threading.Event(), None, ""
         self.reported = threading.Event()
         self.mount, self.done = Instruction.MOUNT, Instruction.DONE
         rospy.init_node("demo", disable_signals=True)
         rospy.Subscriber(f"/{NAMESPACE}/instruction", Instruction, self.hear)
-        rospy.Subscriber(f"/{NAMESPACE}/rig_emulator/mistakes", String, self.count)
 
     def hear(self, instruction):
         if instruction.remark and instruction.remark != self.remark:
@@ -41,9 +38,6 @@ class Listener:
             if instruction.remark and "being written" not in instruction.remark:
                 self.reported.set()
 
-    def count(self, mistakes):
-        self.mistakes = mistakes.data
-
 
 def launch(stack, logs, name, *arguments):
     log = logs / f"{name}.log"
@@ -56,16 +50,14 @@ def record(arguments, output, logs, plan, minutes, say):
     shutil.rmtree(folder, ignore_errors=True)
     with contextlib.ExitStack() as stack:
         rig, log = launch(stack, logs, "rig_emulator", f"link:={board}", f"time_scale:={arguments.time_scale}", f"seed:={arguments.seed}",
-                          "operator:=true", f"mistakes:={MISTAKES}")
+                          "operator:=true")
         wait_until(board.exists, rig, "the rig", log)
         listener = Listener(say)
         launch(stack, logs, "driver", f"serial_port:={board}")
         session, log = launch(stack, logs, "session", f"plan:={plan}", f"folder:={folder}", f"surfaces:={SURFACES}")
         wait_until(lambda: serves(f"/{NAMESPACE}/conduct/confirm"), session, "the conductor", log)
-        # A mistake costs a cycle, or some minutes of waiting.
         if not listener.over.wait(60 + 60 * (minutes + 30) / arguments.time_scale):
             raise Failure(f"the session did not end: step {listener.step}, {listener.remark or 'no remark'}; its log is {log}")
-        say(f"mistakes of the operator: {listener.mistakes}")
         if not listener.reported.wait(REPORT):
             raise Failure(f"the report of the day was not written; the log is {log}")
     return folder
@@ -75,7 +67,7 @@ def run(arguments, output, logs, say):
     """The whole day. Raises Failure where it cannot go on."""
     plan = output / "day.yaml"
     run_tool(logs / "plan.log", "plan_session", "--for", "per_curvature", "--minutes", MINUTES, "--output", plan)
-    say(f"planned {plan}; an operator follows the conductor at {arguments.time_scale:g} x real time, and makes mistakes")
+    say(f"planned {plan}; an operator follows the conductor at {arguments.time_scale:g} x real time")
     folder = record(arguments, output, logs, plan, MINUTES, say)
     report, calibration, results = folder / "day_report.html", folder / "day_calibration.h5", folder / "day_report"
     if not report.exists():

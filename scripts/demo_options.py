@@ -17,8 +17,8 @@
 6. Hides an effect in measurements made with formulas from outside the package, asks `discrepancy` what is missing, and
    prints its answer beside the key.
 
-With --day, instead: writes a plan for 45 min of rig time. An emulated operator, who makes mistakes, follows the conductor
-through it. The mistakes and what the conductor rejected are printed. Once the plan is done, the conductor has the report of
+With --day, instead: writes a plan for 45 min of rig time. An emulated operator follows the conductor
+through it. What the conductor says is printed. Once the plan is done, the conductor has the report of
 the day written by itself.
 
 The exit status is 0 only if per-curvature has a smaller error than flat-only and one-for-all on every bent surface of the
@@ -37,7 +37,7 @@ def read():
     parser.add_argument("--live-cycles", type=int, default=2, help="chamber cycles of each live run (%(default)s)")
     parser.add_argument("--seed", type=int, default=1, help="seed of the emulated rig (%(default)s)")
     parser.add_argument("--no-rviz", action="store_true", help="do not open rviz and take no picture")
-    parser.add_argument("--day", action="store_true", help="a conducted day with an operator who makes mistakes, instead of the above")
+    parser.add_argument("--day", action="store_true", help="a conducted day with an operator, instead of the above")
     return parser.parse_args()
 
 

@@ -48,19 +48,6 @@ simulation::LoadPattern noLoad() {
   return pattern;
 }
 
-// A surface as a sheet feels it whose other face is up: turned by half a turn round the axis y.
-matrix::Surface turnedOver(matrix::Surface surface, matrix::MatrixSize size) {
-  for (matrix::Curvature& curvature : surface.curvature) {
-    curvature = {-curvature.x, -curvature.y, curvature.xy};
-  }
-  if (surface.curvature.size() != size.taxels()) return surface;
-  for (std::size_t row = 0; row < size.rows; ++row) {
-    const auto begin = surface.curvature.begin() + static_cast<std::ptrdiff_t>(row * size.columns);
-    std::reverse(begin, begin + size.columns);
-  }
-  return surface;
-}
-
 }  // namespace
 
 std::string stateName(RigStatus::State state) {
@@ -98,12 +85,6 @@ Emulator::Emulator(const EmulatorOptions& options)
       link_(options.link, options.baud, options.simulation.seed),
       schedule_(options.time_scale) {
   refuseOverload(board_, options_);
-  if (options_.person) {
-    person_.emplace(*options_.person);
-    for (const std::string& surface : options_.person->shelf) {
-      matrix::requireFit(options_.surface_called(surface), options_.simulation.layout.size);
-    }
-  }
   board_.mount(options_.surface);
   mountings_.push_back({0, options_.surface});
   if (options_.autostart) chamber_.startCycles(0, options_.simulation.chamber);
@@ -194,8 +175,8 @@ void Emulator::advance(double time) {
   if (time <= time_) return;
   time_ = time;
   if (options_.on_clock) options_.on_clock(time);
-  if (person_) {
-    for (const Act& act : person_->takeActs(time)) perform(act);
+  if (options_.person) {
+    for (const Act& act : options_.person->takeActs(time)) perform(act);
   }
   if (status_.state == RigStatus::State::kRunning && time >= chamber_.cyclesEnd()) {
     setState(RigStatus::State::kDone);
@@ -213,54 +194,26 @@ void Emulator::putOn(const matrix::Surface& surface) {
 }
 
 void Emulator::perform(const Act& act) {
-  using Line = Board::TransducerLine;
-  LineDamage damage = damage_;
-  const matrix::MatrixSize size = options_.simulation.layout.size;
-  switch (act.kind) {
-    case Act::Kind::kTakeOff:
-      board_.mount({"", mountings_.back().surface.mount, {matrix::Curvature{}}, {}}, noLoad());
-      break;
-    case Act::Kind::kPutOn: {
-      matrix::Surface surface = options_.surface_called(act.surface);
-      surface.mount = act.mount;
-      putOn(act.turned_over ? turnedOver(surface, size) : surface);
-      break;
-    }
-    case Act::Kind::kUnplugBoard:
-      damage.unplugged = true;
-      link_.setDamage(damage, time_);
-      break;
-    case Act::Kind::kPlugBoard:
-      link_.setDamage(damage, time_);
-      break;
-    case Act::Kind::kUnplugTransducer:
-      board_.setTransducer(Line::kUnplugged, time_);
-      break;
-    case Act::Kind::kSilenceTransducer:
-      board_.setTransducer(Line::kSilent, time_);
-      break;
-    case Act::Kind::kPlugTransducer:
-      board_.setTransducer(Line::kWorks, time_);
-      break;
-    case Act::Kind::kLoseTaxel:
-      board_.loseTaxel(static_cast<std::size_t>(act.pick * static_cast<double>(size.taxels())));
-      break;
-    case Act::Kind::kFixTaxels:
-      board_.fixTaxels();
-      break;
-    case Act::Kind::kConfirm:
-    case Act::Kind::kCloseTerminal:
-      break;  // nothing of the rig changes
+  if (act.kind == Act::Kind::kTakeOff)
+    board_.mount({"", mountings_.back().surface.mount, {matrix::Curvature{}}, {}}, noLoad());
+  if (act.kind == Act::Kind::kPutOn) {
+    matrix::Surface surface = options_.surface_called(act.surface);
+    surface.mount = act.mount;
+    putOn(surface);
+  }
+  if (act.change) {
+    act.change(board_, damage_, time_);
+    link_.setDamage(damage_, time_);
   }
   if (options_.on_act) options_.on_act(act);
 }
 
 double Emulator::pressureAt(double time) const {
-  return person_ ? person_->gaugePressure(time) : chamber_.gaugePressure(time);
+  return options_.person ? options_.person->gaugePressure(time) : chamber_.gaugePressure(time);
 }
 
 void Emulator::requireNobody(const char* command) const {
-  if (!person_) return;
+  if (!options_.person) return;
   throw settings::InputError(std::string(command) +
                              ": an operator works at this rig; give instructions instead");
 }
@@ -304,12 +257,7 @@ void Emulator::instruct(const Task& task) {
   }
   const Turn turn(*this);
   catchUp();
-  person_->instruct(std::max(time_, 0.0), task);
-}
-
-std::vector<MadeMistake> Emulator::mistakesMade() const {
-  const Turn turn(*this);
-  return person_ ? person_->made() : std::vector<MadeMistake>{};
+  options_.person->instruct(std::max(time_, 0.0), task);
 }
 
 void Emulator::setDamage(const LineDamage& damage) {

@@ -5,8 +5,8 @@
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <mutex>
-#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -44,7 +44,7 @@ struct EmulatorOptions {
   bool autostart = false;  ///< start cycles at rig time 0
   /// A person who works chamber and sheet as instruct() says. startCycles() and setSurface() are refused
   /// then.
-  std::optional<OperatorOptions> person;
+  std::shared_ptr<Operator> person;
   /// Surface of a name; throws InputError where there is none. Needed by `person`.
   std::function<matrix::Surface(const std::string&)> surface_called;
   /// Called with each act of the person, in the emulator's thread, before the packets after it.
@@ -93,8 +93,6 @@ class Emulator {
   /// Gives the person at the rig an instruction. Throws InputError where there is no person, no such surface,
   /// or a number is out of range.
   void instruct(const Task& task);
-  /// Mistakes that the person made so far.
-  std::vector<MadeMistake> mistakesMade() const;
   /// Sets the damage of the line from now on; LineDamage{} ends it. Throws InputError.
   void setDamage(const LineDamage& damage);
   /// Switches the board off and on.
@@ -150,8 +148,7 @@ class Emulator {
   Chamber chamber_;
   BoardLink link_;
   RigSchedule schedule_;
-  std::optional<Operator> person_;
-  LineDamage damage_;  // as it was set, without what the person unplugged
+  LineDamage damage_;
   std::vector<Mounting> mountings_;
   RigStatus status_;
   bool heard_ = false;  // a reader has the port open

@@ -1,16 +1,57 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "emulator/mistakes.h"
+#include "emulator/board.h"
+#include "emulator/line_damage.h"
 #include "emulator/pressure_course.h"
-#include "emulator/task.h"
 #include "statistics/random_stream.h"
 
 namespace fsr::emulator {
+
+/// What the operator is asked to do. The values are those of msg/Instruction.msg.
+enum class TaskKind : std::uint8_t {
+  kCondition,  ///< a cycle of the conditioning
+  kMount,      ///< put the sheet on a surface
+  kRest,       ///< no load
+  kCycle,      ///< rest, fill, dwell, vent
+  kLoop,       ///< a partial loop from `low` to `peak` and back
+  kHold,       ///< go to a pressure and hold it
+  kBreak,      ///< a long pause without load
+  kDone,       ///< the session is complete
+};
+
+/// "condition", "mount", "rest", "cycle", "loop", "hold", "break", "done".
+std::string name(TaskKind kind);
+
+/// One instruction to the operator, in numbers. Values that a kind does not need are 0.
+struct Task {
+  TaskKind kind = TaskKind::kRest;
+  std::uint32_t step = 0;    ///< number of the step in the plan
+  std::string surface;       ///< name of the surface on which the sheet should lie
+  std::uint32_t mount = 0;   ///< number of the mount
+  std::uint32_t cycle = 0;   ///< number of this cycle, from 1
+  std::uint32_t cycles = 0;  ///< number of cycles on this mount
+  double low = 0;            ///< of a loop, gauge [Pa]
+  double peak = 0;           ///< of a cycle or loop, or the pressure to hold, gauge [Pa]
+  double rate = 0;           ///< of filling and venting [Pa/s]; 0 = as before
+  double dwell_peak = 0;     ///< at the peak [s]
+  double dwell_rest = 0;     ///< without load before a cycle, or length of a rest or break [s]
+  double duration = 0;       ///< planned length of the step [s]
+  bool confirm = false;      ///< the operator must say when it is done
+  /// What hinders, and why the last attempt was rejected: "no scan came for 2 s; rejected: the peak was 496
+  /// kPa, not 620 kPa". Empty = first attempt.
+  std::string remark;
+};
+
+/// Throws InputError where a pressure, rate or time is out of range, or a surface has no name.
+void validate(const Task& task);
+/// The part of a remark that says why an attempt was rejected; empty = it was not.
+std::string rejection(const std::string& remark);
 
 /// One thing that the operator does with the hands, apart from the chamber's valves.
 struct Act {
@@ -18,24 +59,19 @@ struct Act {
     kTakeOff,  ///< the sheet lies on no surface and gets no load
     kPutOn,    ///< puts the sheet on `surface`
     kConfirm,  ///< tells the conductor that it is done
-    kUnplugBoard,
-    kPlugBoard,
-    kUnplugTransducer,  ///< it reads the lower end of its range
-    kSilenceTransducer,
-    kPlugTransducer,
-    kLoseTaxel,  ///< a taxel has no contact; its reading is 0
-    kFixTaxels,
-    kCloseTerminal,
+    kOther,    ///< what a test lets an operator do
   };
   double time = 0;  ///< [s rig time]
   Kind kind = Kind::kConfirm;
-  std::string surface;       ///< of kPutOn
-  std::uint32_t mount = 0;   ///< of kPutOn: a new number each time that the sheet is put on
-  bool turned_over = false;  ///< of kPutOn: the other face is up
-  double pick = 0;           ///< of kLoseTaxel: which taxel, as a share of the matrix, 0 .. 1
+  std::string surface;      ///< of kPutOn
+  std::uint32_t mount = 0;  ///< of kPutOn: a new number each time that the sheet is put on
+  std::string words;        ///< of kOther: what is done
+  /// Of kOther: what it does to the board and its line at a time [s rig time].
+  std::function<void(Board&, LineDamage&, double)> change;
+  bool stays = false;  ///< is done also where a new instruction has come
 };
 
-/// "take off", "put on cylinder_7cm (mount 2)", "confirm" ...
+/// "take the sheet off", "put the sheet on cylinder_7cm", "confirm" ...
 std::string describe(const Act& act);
 
 /// How the operator works. Each time is drawn evenly between two limits.
@@ -46,31 +82,20 @@ struct Habits {
   double peak = 0.01;                            ///< largest error of a peak, share
   double rate = 0.05;                            ///< likewise of a rate
   double dwell = 0.5;                            ///< longest delay at the end of a dwell [s]
-  double patience = 120;  ///< until a forgotten task, or one that nobody accepts, is noticed unasked [s]
-  double repair = 30;     ///< until something unplugged is noticed unasked [s]
+  double patience = 120;                         ///< until a task that nobody accepts is done again [s]
 
   /// Reacts at once and hits every number exactly.
   static Habits exact();
 };
 
 struct OperatorOptions {
-  std::vector<ScriptedMistake> mistakes;
   std::uint64_t seed = 1;
-  /// Names of the surfaces on the shelf beside the rig, in their order. Mistakes about surfaces need two.
-  std::vector<std::string> shelf;
   std::string lies_on = "flat";  ///< surface under the sheet at the start
   Habits habits;
 };
 
-/// A mistake that was made.
-struct MadeMistake {
-  std::string name;
-  std::uint32_t step = 0;  ///< of the task in which it was made
-  double time = 0;         ///< at which that task was begun [s rig time]
-};
-
-/// A person at the rig who carries out instructions, with scripted mistakes. Everything follows rig time;
-/// equal instructions at equal times have equal consequences.
+/// A person at the rig who carries out instructions. Everything follows rig time; equal instructions at equal
+/// times have equal consequences.
 ///
 ///     Operator person(options);
 ///     person.instruct(now, task);             // a new instruction
@@ -78,15 +103,12 @@ struct MadeMistake {
 ///     for (Act& act : person.takeActs(now))   // what was done with the hands up to now
 ///
 /// A new instruction ends what is being done, and so does the rejection of the present attempt, which is then
-/// begun again. An instruction that is merely repeated is ignored, unless its remark has become another one:
-/// then the operator plugs in what is unplugged, presses the connector of the sheet down, and confirms what
-/// was forgotten. At the next attempt a sheet that has slipped off is put on again, and also one on a wrong
-/// surface if the rejection has the word "surface" or "sheet". Who is not told anything after a cycle, loop
-/// or hold does it again after a while.
+/// begun again. An instruction that is merely repeated is ignored. Who is not told anything after a cycle,
+/// loop or hold does it again after a while. Tests derive an operator who makes mistakes.
 class Operator {
  public:
-  /// Throws InputError.
   explicit Operator(const OperatorOptions& options);
+  virtual ~Operator() = default;
 
   /// Instructions must come in time order. Throws InputError where one is out of range; then nothing changes.
   void instruct(double time, const Task& task);
@@ -98,58 +120,47 @@ class Operator {
   /// Time at which the present task will be done [s].
   double doneAt() const { return done_; }
 
-  const std::vector<MadeMistake>& made() const { return made_; }
-  /// Names of the scripted mistakes that no task has suited so far.
-  std::vector<std::string> pending() const;
+ protected:
+  /// Before a task is begun at `time`, and at a remark that asks for nothing else.
+  virtual void prepare(double /*time*/, const Task& /*task*/) {}
+  virtual void hear(double /*time*/, const Task& /*task*/) {}
+  virtual void carryOut(Task task);
+  virtual void mount(const Task& task);
+  virtual void press(const Task& task);
+  virtual void fill(const Task& task);
+  virtual void hold(const Task& task);
+  virtual void loop(const Task& task);
+  virtual void rest(const Task& task);
 
- private:
-  enum class Keep { kWithTask, kAlways, kRepair };  // what a new instruction does to a planned act
-  struct PlannedAct {
-    Act act;
-    Keep keep;
-  };
   double draw(double least, double most);
   double around(double value, double share);
-  Mistake nextMistake(const Task& task, double time);
-  void forgetFrom(double time);
-  void plan(double time, Act::Kind kind, Keep keep = Keep::kWithTask);
-  void insert(const PlannedAct& planned);
-  void putOn(const std::string& surface, bool turned_over, Keep keep = Keep::kWithTask);
-  void begin(double time, const Task& task);
-  void repair(double time);
-  void putSheetRight();
-  void carryOut(const Task& task, Slip slip);
-  void mount(const Task& task, Slip slip);
+  void plan(Act act);
+  void plan(double time, Act::Kind kind);
+  void putOn(const std::string& surface);
   void confirmLater(double delay);
-  void press(const Task& task, Slip slip);
-  void fill(const Task& task, Slip slip);
-  void handle(Slip slip, double half_way);
-  void hold(const Task& task, Slip slip);
-  void loop(const Task& task);
-  void rest(const Task& task, Slip slip);
-  std::string nextOnShelf(const std::string& surface) const;
+  void vent(double rate) { course_.rampTo(0, rate); }
 
   OperatorOptions options_;
+  PressureCourse course_;
+  std::vector<Act> acts_;      // by ascending time
+  std::optional<Task> task_;   // as it was asked for
+  double done_ = 0;            // its end [s]
+  double deaf_until_ = 0;      // the operator does not look at instructions [s]
+  Task pressed_;               // the last task that had a peak
+  std::string asked_surface_;  // where the sheet should lie
+  std::uint32_t asked_mount_ = 0;
+  std::string lies_on_;             // where it will lie after the planned acts; empty = nowhere
+  std::uint32_t put_on_mount_ = 0;  // task's mount at which the sheet was last put on
+
+ private:
+  void begin(double time, const Task& task);
+  void forgetFrom(double time);
+
   statistics::RandomStream random_;
   std::uint64_t drawn_ = 0;
-  std::vector<bool> used_;  // of options_.mistakes
-  std::vector<MadeMistake> made_;
-  PressureCourse course_;
-  std::vector<PlannedAct> acts_;  // by ascending time
-  std::optional<Task> task_;      // as it was asked for
-  std::string remark_;            // that was read last
-  double begin_ = 0;              // of the task [s]
-  double done_ = 0;               // its end [s]
-  double deaf_until_ = 0;         // the operator does not look at instructions [s]
-  Task pressed_;                  // the last task that had a peak
-  std::string asked_surface_;     // where the sheet should lie
-  std::uint32_t asked_mount_ = 0;
-  std::string lies_on_;  // where it will lie after the planned acts; empty = nowhere
-  bool turned_over_ = false;
-  bool taxel_out_ = false;
-  std::uint32_t put_on_mount_ = 0;      // task's mount at which the sheet was last put on
-  std::uint32_t again_ = 0;             // how often it was put on again during that mount
-  std::optional<std::string> swapped_;  // surface to be used at the next mount
+  std::string remark_;       // that was read last
+  double begin_ = 0;         // of the task [s]
+  std::uint32_t again_ = 0;  // how often the sheet was put on again during its mount
 };
 
 }  // namespace fsr::emulator

@@ -23,7 +23,7 @@
 #include "ros/recording/rechecker.h"
 #include "ros/recording/recorder.h"
 #include "ros/recording/session_server.h"
-#include "ros/recording/wait_for_session.h"
+#include "ros/recording/conduct_server.h"
 #include "settings/foreign_error.h"
 
 namespace fsr_ros {

@@ -10,26 +10,6 @@ namespace {
 
 constexpr unsigned kManyAttempts = 3;
 
-InstructionKind kindOf(StepKind kind) {
-  switch (kind) {
-    case StepKind::kMount:
-      return InstructionKind::kMount;
-    case StepKind::kCondition:
-      return InstructionKind::kCondition;
-    case StepKind::kRest:
-      return InstructionKind::kRest;
-    case StepKind::kCycle:
-      return InstructionKind::kCycle;
-    case StepKind::kHold:
-      return InstructionKind::kHold;
-    case StepKind::kLoop:
-      return InstructionKind::kLoop;
-    case StepKind::kBreak:
-      return InstructionKind::kBreak;
-  }
-  return InstructionKind::kDone;
-}
-
 std::string mountText(const SessionStep& step) {
   return "mount " + std::to_string(step.mount) + " on " + step.surface;
 }
@@ -180,28 +160,17 @@ std::string Conductor::remark() const {
 }
 
 Instruction Conductor::instruction() const {
-  Instruction now;
-  now.plan = plan_.name;
-  now.steps = steps_.size();
-  now.step = std::min(step_ + 1, steps_.size());
-  now.text = text();
-  now.remark = remark();
-  if (done()) return now;
-  const SessionStep& step = steps_[step_];
-  now.kind = resumed_ ? InstructionKind::kMount : kindOf(step.kind);
-  now.surface = step.surface;
-  now.mount = step.mount;
-  now.confirm = waitsForMount();
-  if (resumed_) return now;
-  now.cycle = step.number;
-  now.cycles = step.of;
-  now.low = step.low;
-  now.peak = step.peak;
-  now.rate = step.fill_rate > 0 ? step.fill_rate : step.vent_rate;
-  now.dwell_peak = step.dwell_peak;
-  now.dwell_rest = step.dwell_rest;
-  now.duration = step.duration;
-  return now;
+  SessionStep step;
+  step.kind = StepKind::kDone;
+  step.mount = step.number = step.of = 0;
+  if (!done() && !resumed_) step = steps_[step_];
+  if (resumed_) {
+    step.kind = StepKind::kMount;
+    step.surface = steps_[step_].surface;
+    step.mount = steps_[step_].mount;
+  }
+  return {step,     plan_.name,     std::min(step_ + 1, steps_.size()), steps_.size(), text(),
+          remark(), waitsForMount()};
 }
 
 }  // namespace fsr::session

@@ -65,168 +65,154 @@ Coverage coverageOf(const SessionPlan& plan, const std::vector<SessionStep>& ste
 
 namespace {
 
-using view::Colour;
-using view::Image;
+using settings::roundedText;
 using view::Pixel;
 
-constexpr int kCell = 16, kRow = 20, kMargin = 8, kName = 130, kBar = 10 * kCell;  // [pixels]
-constexpr int kWidth = kName + 2 * kBar + 4 * kMargin;
-constexpr Colour kPaper{255, 255, 255}, kInk{0, 0, 0}, kFrame{120, 120, 120};
+constexpr int kCell = 16, kRow = 20, kMargin = 8, kName = 130, kBar = Coverage::kBins * kCell;  // [pixels]
+constexpr int kLeft = kName + 2 * kMargin, kRight = kLeft + kBar + kMargin, kWidth = kRight + kBar + kMargin;
+constexpr view::Colour kPaper{255, 255, 255}, kInk{0, 0, 0}, kFrame{120, 120, 120};
+constexpr double kSvgScale = 1.4;  // of the pixels above
+
+struct Label {
+  Pixel corner;
+  std::string text;
+};
+
+/// A cell, which fills from below, or a bar, which fills from the left.
+struct Box {
+  Pixel corner;
+  int width;
+  Share share;
+  bool upright;
+  std::string title;
+};
+
+struct Rectangle {
+  Pixel corner;
+  int width, height;
+};
+
+// The accepted part.
+Rectangle filled(const Box& box) {
+  const auto part = [&](int length) {
+    return length * static_cast<int>(box.share.accepted) / static_cast<int>(box.share.planned);
+  };
+  if (!box.upright) return {box.corner, part(box.width), kCell};
+  return {{box.corner.x, box.corner.y + kCell - part(kCell)}, box.width, part(kCell)};
+}
 
 // Bright = complete.
-Colour colourOf(const Share& share) {
+view::Colour colourOf(const Share& share) {
   return view::colourAt(view::ColourMap::kCividis, share.accepted == share.planned ? 1 : 0.25);
-}
-
-// The part of `length` that was accepted [pixels].
-int partOf(int length, const Share& share) {
-  return length * static_cast<int>(share.accepted) / static_cast<int>(share.planned);
-}
-
-void frame(Image& image, Pixel corner, int width, int height) {
-  const Pixel end{corner.x + width - 1, corner.y + height - 1};
-  image.line(corner, {end.x, corner.y}, kFrame);
-  image.line({corner.x, end.y}, end, kFrame);
-  image.line(corner, {corner.x, end.y}, kFrame);
-  image.line({end.x, corner.y}, end, kFrame);
-}
-
-void drawCells(Image& image, Pixel corner, const std::vector<Share>& bins) {
-  for (std::size_t b = 0; b < bins.size(); ++b) {
-    const Pixel cell{corner.x + static_cast<int>(b) * kCell, corner.y};
-    if (bins[b].planned == 0) continue;
-    const int height = partOf(kCell, bins[b]);
-    image.fill({cell.x, cell.y + kCell - height}, kCell, height, colourOf(bins[b]));
-    frame(image, cell, kCell, kCell);
-  }
-}
-
-void drawBar(Image& image, int y, const std::string& label, const Share& share) {
-  const int left = kName + 2 * kMargin;
-  image.text({kMargin, y}, label, kInk);
-  image.fill({left, y}, partOf(kBar, share), kCell, colourOf(share));
-  frame(image, {left, y}, kBar, kCell);
-  image.text({left + kBar + kMargin, y},
-             std::to_string(share.accepted) + " of " + std::to_string(share.planned), kInk);
-}
-
-}  // namespace
-
-view::Image drawCoverage(const Coverage& coverage, const std::vector<std::string>& lines) {
-  const std::size_t rows =
-      lines.size() + 1 + coverage.surfaces.size() + coverage.paces.size() + coverage.dwells.size();
-  Image image(kWidth, static_cast<int>(rows) * kRow + 3 * kMargin, kPaper);
-  const int up = kName + 2 * kMargin, down = up + kBar + kMargin;
-  int y = kMargin;
-  for (const std::string& line : lines) {
-    image.text({kMargin, y}, line, kInk);
-    y += kRow;
-  }
-  const std::string range = "0 to " + settings::roundedText(coverage.largest_peak / 1e3, 3) + " kPa";
-  image.text({up, y}, "loading, " + range, kInk);
-  image.text({down, y}, "unloading", kInk);
-  for (const SurfaceCoverage& surface : coverage.surfaces) {
-    y += kRow;
-    image.text({kMargin, y}, surface.surface.substr(0, 18), kInk);
-    drawCells(image, {up, y}, surface.loading);
-    drawCells(image, {down, y}, surface.unloading);
-  }
-  y += kMargin;
-  for (const ValueCoverage& pace : coverage.paces)
-    drawBar(image, y += kRow, "pace " + settings::roundedText(pace.value / 1e3, 3) + " kPa/s", pace.steps);
-  for (const ValueCoverage& dwell : coverage.dwells)
-    drawBar(image, y += kRow, "dwell " + settings::roundedText(dwell.value, 3) + " s", dwell.steps);
-  return image;
-}
-
-namespace {
-
-using settings::roundedText;
-
-constexpr double kSvgCell = 22, kSvgRow = 28, kSvgMargin = 10, kSvgName = 150, kSvgBar = 10 * kSvgCell,
-                 kText = 13;  // [pixels]
-constexpr double kSvgUp = kSvgName + kSvgMargin, kSvgDown = kSvgUp + kSvgBar + 2 * kSvgMargin,
-                 kSvgWidth = kSvgDown + kSvgBar + kSvgMargin;
-
-// Bright = complete, as in drawCoverage().
-std::string svgColour(const Share& share) {
-  const view::Colour colour =
-      view::colourAt(view::ColourMap::kCividis, share.accepted == share.planned ? 1 : 0.25);
-  return "rgb(" + std::to_string(colour.red) + "," + std::to_string(colour.green) + "," +
-         std::to_string(colour.blue) + ")";
-}
-
-std::string box(double x, double y, double width, double height, const std::string& more) {
-  return "<rect x=\"" + roundedText(x) + "\" y=\"" + roundedText(y) + "\" width=\"" + roundedText(width) +
-         "\" height=\"" + roundedText(height) + "\" " + more;
-}
-
-std::string label(double x, double y, const std::string& text) {
-  return "<text x=\"" + roundedText(x) + "\" y=\"" + roundedText(y + kSvgCell - 6) + "\">" + escaped(text) +
-         "</text>\n";
 }
 
 std::string countText(const Share& share) {
   return std::to_string(share.accepted) + " of " + std::to_string(share.planned);
 }
 
-std::string frame(double x, double y, double width, const std::string& title) {
-  return box(x, y, width, kSvgCell, "fill=\"none\" stroke=\"#777\" pointer-events=\"all\"><title>") +
-         escaped(title) + "</title></rect>\n";
-}
-
-double partOf(double length, const Share& share) {
-  return length * share.accepted / share.planned;
-}
-
-// What is not planned has no cell.
-std::string cells(double x, double y, const std::vector<Share>& bins, const std::string& what,
-                  double bin_width) {
-  std::string svg;
-  for (std::size_t b = 0; b < bins.size(); ++b, x += kSvgCell) {
-    if (bins[b].planned == 0) continue;
-    const double height = partOf(kSvgCell, bins[b]);
-    if (height > 0)
-      svg += box(x, y + kSvgCell - height, kSvgCell, height, "fill=\"" + svgColour(bins[b]) + "\"/>");
-    const auto edge = [&](std::size_t bin) {
-      return roundedText(bin_width * static_cast<double>(bin) / 1e3, 4);
-    };
-    svg +=
-        frame(x, y, kSvgCell, what + ", " + edge(b) + " to " + edge(b + 1) + " kPa: " + countText(bins[b]));
+/// Where everything stands, in the picture and in the page.
+class Layout {
+ public:
+  Layout(const Coverage& coverage, const std::vector<std::string>& lines) : coverage_(coverage) {
+    for (const std::string& line : lines) {
+      labels.push_back({{kMargin, y_}, line});
+      y_ += kRow;
+    }
+    labels.push_back({{kLeft, y_}, "loading, 0 to " + kilopascals(coverage.largest_peak) + " kPa"});
+    labels.push_back({{kRight, y_}, "unloading"});
+    for (const SurfaceCoverage& one : coverage.surfaces) {
+      y_ += kRow;
+      labels.push_back({{kMargin, y_}, one.surface.substr(0, 18)});
+      addCells(kLeft, one.loading, one.surface + ", loading, ");
+      addCells(kRight, one.unloading, one.surface + ", unloading, ");
+    }
+    y_ += kMargin;
+    for (const ValueCoverage& pace : coverage.paces)
+      addBar("pace " + kilopascals(pace.value) + " kPa/s", pace.steps);
+    for (const ValueCoverage& dwell : coverage.dwells)
+      addBar("dwell " + roundedText(dwell.value, 3) + " s", dwell.steps);
   }
-  return svg;
+
+  int height() const { return y_ + kRow + kMargin; }
+
+  std::vector<Label> labels;
+  std::vector<Box> boxes;
+
+ private:
+  static std::string kilopascals(double pressure) { return roundedText(pressure / 1e3, 3); }
+  // What is not planned has no cell.
+  void addCells(int x, const std::vector<Share>& bins, const std::string& what) {
+    const double bin = coverage_.largest_peak / Coverage::kBins;
+    for (std::size_t b = 0; b < bins.size(); ++b) {
+      const auto from = static_cast<double>(b);
+      if (bins[b].planned > 0)
+        boxes.push_back({{x + static_cast<int>(b) * kCell, y_},
+                         kCell,
+                         bins[b],
+                         true,
+                         what + kilopascals(bin * from) + " to " + kilopascals(bin * (from + 1)) +
+                             " kPa: " + countText(bins[b])});
+    }
+  }
+  void addBar(const std::string& name, const Share& share) {
+    y_ += kRow;
+    labels.push_back({{kMargin, y_}, name});
+    boxes.push_back({{kLeft, y_}, kBar, share, false, name + ": " + countText(share)});
+    labels.push_back({{kRight, y_}, countText(share)});
+  }
+
+  const Coverage& coverage_;
+  int y_ = kMargin;
+};
+
+void frame(view::Image& image, const Box& box) {
+  const Pixel corner = box.corner, end{corner.x + box.width - 1, corner.y + kCell - 1};
+  image.line(corner, {end.x, corner.y}, kFrame);
+  image.line({corner.x, end.y}, end, kFrame);
+  image.line(corner, {corner.x, end.y}, kFrame);
+  image.line({end.x, corner.y}, end, kFrame);
 }
 
-std::string bar(double y, const std::string& name, const Share& share) {
-  const double length = partOf(kSvgBar, share);
-  return label(0, y, name) +
-         (length > 0 ? box(kSvgUp, y, length, kSvgCell, "fill=\"" + svgColour(share) + "\"/>")
-                     : std::string()) +
-         frame(kSvgUp, y, kSvgBar, name + ": " + countText(share)) + label(kSvgDown, y, countText(share));
+std::string svgRectangle(const Rectangle& at, const std::string& more) {
+  return "<rect x=\"" + std::to_string(at.corner.x) + "\" y=\"" + std::to_string(at.corner.y) +
+         "\" width=\"" + std::to_string(at.width) + "\" height=\"" + std::to_string(at.height) + "\" " + more;
+}
+
+std::string svgColour(const view::Colour& colour) {
+  return "rgb(" + std::to_string(colour.red) + "," + std::to_string(colour.green) + "," +
+         std::to_string(colour.blue) + ")";
 }
 
 }  // namespace
 
-std::string coverageSvg(const Coverage& coverage) {
-  const double bin = coverage.largest_peak / Coverage::kBins;
-  const std::string range = "0 to " + roundedText(coverage.largest_peak / 1e3, 3) + " kPa";
-  double y = 0;
-  std::string svg = label(kSvgUp, y, "loading, " + range) + label(kSvgDown, y, "unloading, " + range);
-  for (const SurfaceCoverage& surface : coverage.surfaces) {
-    y += kSvgRow;
-    svg += label(0, y, surface.surface) +
-           cells(kSvgUp, y, surface.loading, surface.surface + ", loading", bin) +
-           cells(kSvgDown, y, surface.unloading, surface.surface + ", unloading", bin);
+view::Image drawCoverage(const Coverage& coverage, const std::vector<std::string>& lines) {
+  const Layout layout(coverage, lines);
+  view::Image image(kWidth, layout.height(), kPaper);
+  for (const Box& box : layout.boxes) {
+    const Rectangle part = filled(box);
+    image.fill(part.corner, part.width, part.height, colourOf(box.share));
+    frame(image, box);
   }
-  y += kSvgMargin;
-  for (const ValueCoverage& pace : coverage.paces)
-    svg += bar(y += kSvgRow, "pace " + roundedText(pace.value / 1e3, 3) + " kPa/s", pace.steps);
-  for (const ValueCoverage& dwell : coverage.dwells)
-    svg += bar(y += kSvgRow, "dwell " + roundedText(dwell.value, 3) + " s", dwell.steps);
-  const std::string width = roundedText(kSvgWidth), height = roundedText(y + kSvgRow);
-  return "<svg role=\"img\" aria-label=\"coverage\" width=\"" + width + "\" height=\"" + height +
-         "\" viewBox=\"0 0 " + width + " " + height + "\" font-family=\"sans-serif\" font-size=\"" +
-         roundedText(kText) + "\">\n" + svg + "</svg>";
+  for (const Label& label : layout.labels) image.text(label.corner, label.text, kInk);
+  return image;
+}
+
+std::string coverageSvg(const Coverage& coverage) {
+  const Layout layout(coverage, {});
+  std::string svg = "<svg role=\"img\" aria-label=\"coverage\" width=\"" + roundedText(kSvgScale * kWidth) +
+                    "\" height=\"" + roundedText(kSvgScale * layout.height()) + "\" viewBox=\"0 0 " +
+                    std::to_string(kWidth) + " " + std::to_string(layout.height()) +
+                    "\" font-family=\"sans-serif\" font-size=\"10\">\n";
+  for (const Box& box : layout.boxes) {
+    svg += svgRectangle(filled(box), "fill=\"" + svgColour(colourOf(box.share)) + "\"/>");
+    svg += svgRectangle({box.corner, box.width, kCell},
+                        "fill=\"none\" stroke=\"#777\" pointer-events=\"all\"><title>") +
+           escaped(box.title) + "</title></rect>\n";
+  }
+  for (const Label& label : layout.labels)
+    svg += "<text x=\"" + std::to_string(label.corner.x) + "\" y=\"" +
+           std::to_string(label.corner.y + kCell - 4) + "\">" + escaped(label.text) + "</text>\n";
+  return svg + "</svg>";
 }
 
 }  // namespace fsr::session

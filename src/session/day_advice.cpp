@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "session/day_report.h"
+#include "session/plan_report.h"
 
 namespace fsr::session {
 
@@ -27,48 +28,40 @@ const std::map<std::string, std::string>& whatAssesses() {
   return what;
 }
 
-std::string listText(const Sentences& words) {
+std::string wordList(const Sentences& words) {
   std::string text;
   for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
   return text;
 }
 
-Advice notDone(const DayReport& day) {
-  Advice advice{"Steps of the plan that were not done", "the state of the session", {}};
-  for (const DayMount& mount : day.mounts) {
-    const auto open = std::count_if(mount.steps.begin(), mount.steps.end(),
-                                    [](const DayStep& step) { return step.fate != StepFate::kAccepted; });
-    const std::string where = "Mount " + std::to_string(mount.number) + " on " + mount.surface + ": ";
-    if (open > 0 && static_cast<std::size_t>(open) == mount.steps.size()) {
-      advice.sentences.push_back(where + "none of its " + std::to_string(open) + " steps was done.");
+// A mount of which nothing was done is one sentence.
+Sentences notDone(const DayReport& day) {
+  Sentences sentences;
+  const std::vector<SessionStep> steps = sessionSteps(day.plan);
+  for (std::size_t first = 0, end = 0; first < steps.size(); first = end) {
+    std::size_t open = 0;
+    for (end = first; end < steps.size() && steps[end].mount == steps[first].mount; ++end)
+      open += day.state.steps[end] != StepState::kAccepted;
+    const std::string where =
+        "Mount " + std::to_string(steps[first].mount) + " on " + steps[first].surface + ": ";
+    if (open == end - first) {
+      sentences.push_back(where + "none of its " + std::to_string(open) + " steps was done.");
       continue;
     }
-    for (const DayStep& step : mount.steps) {
-      if (step.fate == StepFate::kAccepted) continue;
-      advice.sentences.push_back(
-          where + step.text +
-          (step.fate == StepFate::kSkipped ? " It was skipped." : " It was not reached."));
+    for (std::size_t s = first; s < end; ++s) {
+      if (day.state.steps[s] == StepState::kAccepted) continue;
+      const bool skipped = day.state.steps[s] == StepState::kSkipped;
+      sentences.push_back(where + instruction(steps[s]) +
+                          (skipped ? " It was skipped." : " It was not reached."));
     }
   }
-  return advice;
+  return sentences;
 }
 
-Advice warnedOf(const Json& training) {
-  return {"What train warns of", "train, warnings", training.at("warnings").get<Sentences>()};
-}
-
-Advice thinCoverage(const Json& training) {
-  Advice advice{"Pressures and surfaces with few scans or none", "train, coverage", {}};
-  for (const Json& sentence : training.at("coverage").at("thin"))
-    advice.sentences.push_back(sentence.get<std::string>());
-  return advice;
-}
-
-Advice notAssessed(const Json& training) {
-  Advice advice{"Parts of the error that are not assessed", "train, error budget", {}};
+Sentences notAssessed(const Json& training) {
+  Sentences sentences, never;
   const Json& budget = training.at("error_budget");
-  if (budget.is_null()) return advice;
-  Sentences never;
+  if (budget.is_null()) return {};
   std::vector<Json> lines = budget.at("lines");
   // A map is used on a mount of its own, so this line comes first.
   std::stable_partition(lines.begin(), lines.end(),
@@ -77,81 +70,74 @@ Advice notAssessed(const Json& training) {
     if (line.at("source") != "not assessed") continue;
     const auto name = line.at("name").get<std::string>(), note = line.at("note").get<std::string>();
     const auto what = whatAssesses().find(name);
-    if (what == whatAssesses().end()) {
+    if (what == whatAssesses().end())
       never.push_back(name + " (" + note + ")");
-    } else {
-      advice.sentences.push_back(what->second + " The line \"" + name + "\" is not assessed: " + note + ".");
-    }
+    else
+      sentences.push_back(what->second + " The line \"" + name + "\" is not assessed: " + note + ".");
   }
   if (!never.empty())
-    advice.sentences.push_back("No recording of this sheet in the chamber assesses: " + listText(never) +
-                               ".");
-  return advice;
+    sentences.push_back("No recording of this sheet in the chamber assesses: " + wordList(never) + ".");
+  return sentences;
 }
 
-Advice missedByTraining(const Json& training) {
-  Advice advice{"What training missed", "train", {}};
-  for (const std::string& choice : choicesOfTraining(training)) {
-    if (choice.find("; record ") != std::string::npos) advice.sentences.push_back(choice);
+// What training says about the sheet's memory, a tare at the start of a session and the temperature.
+Sentences missedByTraining(const Json& training) {
+  Sentences sentences;
+  for (const char* const part : {"history", "session", "temperature"}) {
+    const Json& found = training.at(part);
+    const std::string choice = found.is_object() ? found.value("choice", "") : "";
+    if (choice.find("; record ") != std::string::npos) sentences.push_back(choice);
   }
-  return advice;
+  return sentences;
 }
 
 // Effects with one reason and one experiment share a sentence.
-Advice notTold(const Json& discrepancy) {
-  Advice advice{"Effects that discrepancy cannot tell from these bags", "discrepancy", {}};
-  std::vector<std::pair<std::pair<std::string, std::string>, Sentences>> groups;
-  for (const Json& effect : discrepancy.at("not_identifiable")) {
-    const std::pair key{effect.at("experiment").get<std::string>(), effect.at("reason").get<std::string>()};
-    auto group =
-        std::find_if(groups.begin(), groups.end(), [&](const auto& one) { return one.first == key; });
-    if (group == groups.end()) group = groups.insert(group, {key, {}});
-    group->second.push_back(effect.at("id").get<std::string>());
-  }
+Sentences notTold(const Json& discrepancy) {
+  Sentences sentences;
   for (const Json& item : discrepancy.at("first_screen")) {
     if (item.at("title") == "Next experiment")
-      advice.sentences.push_back("Next experiment: " + item.at("answer").get<std::string>());
+      sentences.push_back("Next experiment: " + item.at("answer").get<std::string>());
   }
-  for (const auto& [key, effects] : groups)
-    advice.sentences.push_back(listText(effects) + ": " + key.second +
-                               " An experiment that shows it: " + key.first + ".");
+  std::vector<std::pair<std::string, Sentences>> groups;
+  for (const Json& effect : discrepancy.at("not_identifiable")) {
+    const std::string why = effect.at("reason").get<std::string>() +
+                            " An experiment that shows it: " + effect.at("experiment").get<std::string>();
+    auto group =
+        std::find_if(groups.begin(), groups.end(), [&](const auto& one) { return one.first == why; });
+    if (group == groups.end()) group = groups.insert(group, {why, {}});
+    group->second.push_back(effect.at("id").get<std::string>());
+  }
+  for (const auto& [why, effects] : groups) sentences.push_back(wordList(effects) + ": " + why + ".");
   for (const Json& missing : discrepancy.at("gap").at("missing"))
-    advice.sentences.push_back(missing.get<std::string>());
-  return advice;
-}
-
-void addRefusal(const std::string& tool, const DayPart& part, std::vector<Advice>& all) {
-  if (!part.refused.empty()) all.push_back({"What " + tool + " asks for", tool, {part.refused}});
+    sentences.push_back(missing.get<std::string>());
+  return sentences;
 }
 
 }  // namespace
 
-std::vector<std::string> choicesOfTraining(const Json& training) {
-  std::vector<std::string> choices;
-  for (const char* const part : {"history", "session", "temperature"}) {
-    const Json& found = training.at(part);
-    if (found.is_object() && found.contains("choice"))
-      choices.push_back(found.at("choice").get<std::string>());
-  }
-  return choices;
-}
-
 std::vector<Advice> whatToRecordNext(const DayReport& day) {
   std::vector<Advice> all;
-  addRefusal("check_bag", day.check, all);
-  addRefusal("train", day.training, all);
-  if (day.training.result.is_object()) all.push_back(warnedOf(day.training.result));
-  all.push_back(notDone(day));
-  if (day.training.result.is_object()) {
-    all.push_back(thinCoverage(day.training.result));
-    all.push_back(notAssessed(day.training.result));
-    all.push_back(missedByTraining(day.training.result));
+  const auto add = [&all](const std::string& title, const std::string& source, const Sentences& sentences) {
+    if (!sentences.empty()) all.push_back({title, source, sentences});
+  };
+  const auto addRefusal = [&](const std::string& tool, const DayPart& part) {
+    if (!part.refused.empty()) add("What " + tool + " asks for", tool, {part.refused});
+  };
+  const Json &training = day.training.result, &discrepancy = day.discrepancy.result;
+  addRefusal("check_bag", day.check);
+  addRefusal("train", day.training);
+  if (training.is_object()) add("What train warns of", "train, warnings", training.at("warnings"));
+  add("Steps of the plan that were not done", "the state of the session", notDone(day));
+  if (training.is_object()) {
+    add("Pressures and surfaces with few scans or none", "train, coverage",
+        training.at("coverage").at("thin"));
+    add("Parts of the error that are not assessed", "train, error budget", notAssessed(training));
+    add("What training missed", "train", missedByTraining(training));
   }
-  addRefusal("discrepancy", day.discrepancy, all);
-  if (day.discrepancy.result.is_object()) all.push_back(notTold(day.discrepancy.result));
-  all.push_back({"What the plan leaves open, also where all of it is done", "plan_session", day.plan_limits});
-  all.erase(std::remove_if(all.begin(), all.end(), [](const Advice& one) { return one.sentences.empty(); }),
-            all.end());
+  addRefusal("discrepancy", day.discrepancy);
+  if (discrepancy.is_object())
+    add("Effects that discrepancy cannot tell from these bags", "discrepancy", notTold(discrepancy));
+  add("What the plan leaves open, also where all of it is done", "plan_session", limitsOf(day.plan));
   return all;
 }
 

@@ -61,21 +61,9 @@ void HtmlPage::element(const std::string& name, const std::string& text) {
   text_ += "<" + name + ">" + escaped(text) + "</" + name + ">\n";
 }
 
-void HtmlPage::heading(const std::string& text) {
-  element("h2", text);
-}
-
-void HtmlPage::smallHeading(const std::string& text) {
-  element("h3", text);
-}
-
-void HtmlPage::paragraph(const std::string& text) {
-  element("p", text);
-}
-
 void HtmlPage::box(const std::vector<std::string>& sentences) {
   text_ += "<div class=\"box\">\n";
-  for (const std::string& sentence : sentences) paragraph(sentence);
+  for (const std::string& sentence : sentences) element("p", sentence);
   text_ += "</div>\n";
 }
 
@@ -112,10 +100,6 @@ void HtmlPage::fold(const std::string& title) {
 
 void HtmlPage::endFold() {
   text_ += "</details>\n";
-}
-
-void HtmlPage::lines(const std::string& text) {
-  element("pre", text);
 }
 
 void HtmlPage::figure(const std::string& svg, const std::string& caption) {

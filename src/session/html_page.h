@@ -14,9 +14,8 @@ class HtmlPage {
  public:
   explicit HtmlPage(const std::string& title);
 
-  void heading(const std::string& text);
-  void smallHeading(const std::string& text);
-  void paragraph(const std::string& text);
+  /// "h2", "h3", "p", or "pre": text in lines, as a program prints it.
+  void element(const std::string& name, const std::string& text);
   /// A paragraph in a box that catches the eye.
   void box(const std::vector<std::string>& sentences);
   /// Why a part is missing.
@@ -28,8 +27,6 @@ class HtmlPage {
   /// What follows is hidden behind its title until endFold().
   void fold(const std::string& title);
   void endFold();
-  /// Text in lines, as a program prints it.
-  void lines(const std::string& text);
   /// A drawing that is SVG already, with its caption.
   void figure(const std::string& svg, const std::string& caption);
 
@@ -37,8 +34,6 @@ class HtmlPage {
   std::string text() const;
 
  private:
-  void element(const std::string& name, const std::string& text);
-
   std::string text_;
 };
 

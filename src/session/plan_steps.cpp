@@ -190,7 +190,8 @@ std::vector<PlannedMount> mountOrder(const SessionPlan& plan) {
 }
 
 std::string name(StepKind kind) {
-  static const char* const kNames[] = {"mount", "condition", "rest", "cycle", "hold", "loop", "break"};
+  static const char* const kNames[] = {"condition", "mount", "rest",  "cycle",
+                                       "loop",      "hold",  "break", "done"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 
@@ -219,6 +220,8 @@ std::string instruction(const SessionStep& step) {
              ".";
     case StepKind::kBreak:
       return "Break of " + roundedText(step.dwell_rest / 60, 3) + " min without load.";
+    case StepKind::kDone:
+      break;
   }
   return "";
 }

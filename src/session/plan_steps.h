@@ -21,17 +21,19 @@ struct PlannedMount {
 /// unless it is the only one left.
 std::vector<PlannedMount> mountOrder(const SessionPlan& plan);
 
+/// The numbers are those of msg/Instruction.msg.
 enum class StepKind {
-  kMount,      ///< put the sheet on a surface
   kCondition,  ///< one cycle of the conditioning
+  kMount,      ///< put the sheet on a surface
   kRest,       ///< no load
   kCycle,      ///< fill, dwell, vent
-  kHold,       ///< a pressure is held
   kLoop,       ///< a partial loop from `low` to `peak` and back
+  kHold,       ///< a pressure is held
   kBreak,      ///< a long pause without load, which is not recorded
+  kDone,       ///< no step: the session is over
 };
 
-/// "mount", "condition", "rest", "cycle", "hold", "loop", "break".
+/// "condition", "mount", "rest", "cycle", "loop", "hold", "break", "done".
 std::string name(StepKind kind);
 
 /// One thing to do, and what the chamber should then show. Pressures and times that a kind does not have are

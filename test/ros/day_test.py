@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """A whole day at the emulated rig: the shipped launch files, an operator who makes mistakes, and the report of the day.
 
-Nothing is called between the three launch files and the report. Rig time runs 20 times as fast as real time.
+Nothing is called between rig, launch files and the report. Rig time runs 20 times as fast as real time.
 """
 import html.parser
 import json
@@ -13,6 +13,7 @@ import tempfile
 import threading
 import unittest
 
+import rosnode
 import rospkg
 import rospy
 import rostest
@@ -37,16 +38,16 @@ program:
 STEPS = {"peak_too_low": 8, "leak": 9, "board_unplugged": 16, "terminal_closed": 18}
 REMARKS = ("planned are 500 kPa", "leak", "no reading of the chamber pressure")  # a closed terminal cannot say anything
 LINK = "day_port"
-SECTIONS = ("What was recorded", "How good the calibration is", "Error budget", "What the sheet does that the simulation lacks",
+SECTIONS = ("What was recorded", "Whether the bags are fit", "How good the calibration is", "What the sheet does that the simulation lacks",
             "What to record next", "Every step", "How to compute it again")
 
 
 class Page(html.parser.HTMLParser):
-    """The headings, the rows of the tables and whatever the page would load from elsewhere."""
+    """The headings, the text and whatever the page would load from elsewhere."""
 
     def __init__(self, text):
         super().__init__()
-        self.headings, self.rows, self.outside, self.pictures, self.text, self.open = [], [], [], 0, "", []
+        self.headings, self.outside, self.pictures, self.text, self.in_heading = [], [], 0, "", False
         self.feed(text)
         self.close()
 
@@ -55,23 +56,17 @@ class Page(html.parser.HTMLParser):
             self.outside.append(tag)
         self.outside += [f"{tag} {name}={value}" for name, value in attrs if name in ("src", "href", "xlink:href", "data", "action")]
         self.pictures += tag == "svg"
-        self.rows += [[]] if tag == "tr" else []
-        if tag in ("td", "h2"):
-            self.open.append("")
+        if tag == "h2":
+            self.headings.append("")
+        self.in_heading = tag == "h2"
 
     def handle_data(self, data):
         self.text += data
-        if self.open:
-            self.open[-1] += data
+        if self.in_heading:
+            self.headings[-1] += data
 
     def handle_endtag(self, tag):
-        if tag == "td":
-            self.rows[-1].append(self.open.pop())
-        if tag == "h2":
-            self.headings.append(self.open.pop())
-
-    def row(self, name):
-        return next(row for row in self.rows if row and row[0] == name)
+        self.in_heading = False
 
 
 class DayTest(unittest.TestCase):
@@ -79,10 +74,10 @@ class DayTest(unittest.TestCase):
         self.folder = tempfile.TemporaryDirectory()
         self.home = pathlib.Path(self.folder.name)
         (self.home / "day.yaml").write_text(PLAN)
-        self.running, self.remarks, self.mistakes = [], [], ""
+        self.running, self.remarks = [], []
         self.over, self.reported = threading.Event(), threading.Event()
         rospy.Subscriber("/fsr/instruction", Instruction, self.hear)
-        rospy.Subscriber("/fsr/rig_emulator/mistakes", String, self.count)
+        rospy.Subscriber("/fsr/rig_emulator/acts", String, self.close_terminal)
 
     def tearDown(self):
         for one in reversed(self.running):
@@ -99,12 +94,18 @@ class DayTest(unittest.TestCase):
             if "The report of the day" in instruction.remark and "being written" not in instruction.remark:
                 self.reported.set()
 
-    def count(self, mistakes):
-        self.mistakes = mistakes.data
+    def close_terminal(self, act):
+        if act.data == "close the terminal of the conductor":
+            rosnode.kill_nodes(["/fsr/conduct"])
 
     def launch(self, name, *arguments):
         here = dict(os.environ, PWD=str(self.home))  # as a shell would say it
         self.running.append(subprocess.Popen(["roslaunch", "fsr_pressure_map", name, *arguments], cwd=self.home, env=here))
+
+    def start_rig(self, link, mistakes, *parameters):
+        rospy.set_param("/use_sim_time", True)
+        self.running.append(subprocess.Popen(["rosrun", "fsr_pressure_map", "clumsy_rig_node", "__ns:=fsr", "_operator:=true", "_change:=20",
+                                              "_time_scale:=20", f"_link:={link}", f"_mistakes:={mistakes}", *parameters]))
 
     def tool(self, *words):
         done = subprocess.run(["rosrun", "fsr_pressure_map", *map(str, words)], cwd=self.home, stdout=subprocess.PIPE,
@@ -124,29 +125,25 @@ class DayTest(unittest.TestCase):
 
         code, budget = self.tool("train", "--budget", "session/day_calibration.h5")
         self.assertEqual(code, 0, budget)
-        for name in ("pressure", "resolution", "loading and unloading", "held-out error", "combined, k = 2"):
-            line = next(line for line in budget.splitlines() if line.startswith(name + " "))
-            self.assertEqual(page.row(name)[1:4], line[len(name):].split()[:3], line)
+        for line in budget.splitlines()[1:]:
+            self.assertIn(line, page.text)
         results = self.home / "session/day_report"
+        for tool in ("check_bag", "train", "discrepancy"):
+            self.assertIn((results / f"{tool}.txt").read_text(), page.text)
         training = json.loads((results / "training.json").read_text())
         rmse = training["scores"]["whole"]["errors_pa"]["whole"]["all"]["rmse"]
-        self.assertEqual(page.row("all together")[3], f"{rmse / 1e3:.1f}")
+        self.assertIn(f"held-out error {rmse / 1e3:.1f} kPa", page.text)
         found = json.loads((results / "discrepancy/results.json").read_text())
         self.assertIn(found["sentence"], page.text)
-        for item in found["first_screen"]:
-            self.assertEqual(page.row(item["title"])[1], item["answer"])
 
     def test_from_plan_to_the_report(self):
         link = self.home / LINK
-        self.launch("rig_emulator.launch", "operator:=true", "time_scale:=20", f"link:={link}", "change:=20",
-                    "mistakes:=" + ",".join(f"{name}@{step}" for name, step in STEPS.items()))
+        self.start_rig(link, ",".join(f"{name}@{step}" for name, step in STEPS.items()))
         rospy.wait_for_message("/clock", Clock, 30)  # launch files refuse to wait for a clock that nobody publishes
         self.launch("driver.launch", f"serial_port:={link}")
         self.launch("session.launch", "plan:=day.yaml", f"surfaces:={SURFACES}")
         self.assertTrue(self.over.wait(200), f"the session did not end; heard: {self.remarks}")
 
-        for name in STEPS:
-            self.assertIn(name, self.mistakes)
         for remark in REMARKS:
             self.assertTrue(any(remark in heard for heard in self.remarks), f"{remark} was not said: {self.remarks}")
         for one in (self.running.pop(1), self.running.pop(0)):  # the driver and the rig, whose work is done

@@ -29,7 +29,7 @@ TEST_P(ShippedPlans, AreAcceptedStepByStepFromAnOperatorWithoutMistakes) {
     day.follow();
     ASSERT_EQ(day.rejected(), Names{}) << day.last.sentence << " at step " << s + 1;
   }
-  EXPECT_EQ(day.conductor.instruction().kind, InstructionKind::kDone);
+  EXPECT_EQ(day.conductor.instruction().kind, StepKind::kDone);
   EXPECT_EQ(day.conductor.timeLeft(), 0);
 }
 
@@ -53,18 +53,18 @@ void followTo(RigDay& day, std::size_t step) {
 TEST(Conductor, TellsTheNumbersOfAStep) {
   RigDay day(planFrom(kDay));
   Instruction now = day.conductor.instruction();
-  EXPECT_EQ(now.kind, InstructionKind::kMount);
+  EXPECT_EQ(now.kind, StepKind::kMount);
   EXPECT_TRUE(now.confirm);
   EXPECT_EQ(now.text, "Put the sheet on flat, mount 1. Then confirm.");
   EXPECT_FALSE(day.conductor.recording());
   followTo(day, 6);
   now = day.conductor.instruction();
   EXPECT_EQ(now.plan, "day");
-  EXPECT_EQ(now.kind, InstructionKind::kCycle);
-  EXPECT_EQ(now.cycle, 2u);
-  EXPECT_EQ(now.cycles, 2u);
+  EXPECT_EQ(now.kind, StepKind::kCycle);
+  EXPECT_EQ(now.number, 2u);
+  EXPECT_EQ(now.of, 2u);
   EXPECT_EQ(now.peak, 600e3);
-  EXPECT_EQ(now.rate, 20e3);
+  EXPECT_EQ(now.fill_rate, 20e3);
   EXPECT_EQ(now.dwell_peak, 1);
   EXPECT_TRUE(day.conductor.recording());
   EXPECT_EQ(now.remark, "");
@@ -73,7 +73,7 @@ TEST(Conductor, TellsTheNumbersOfAStep) {
 TEST(Conductor, ABreakPassesWithTheChamberOff) {
   RigDay day(planFrom(kDay));
   followTo(day, 8);
-  EXPECT_EQ(day.conductor.instruction().kind, InstructionKind::kBreak);
+  EXPECT_EQ(day.conductor.instruction().kind, StepKind::kBreak);
   day.transducer = day.board = false;
   day.stay(3590);
   EXPECT_EQ(day.conductor.instruction().step, 8u);
@@ -91,7 +91,7 @@ TEST(Conductor, GoesOnWhereASessionStopped) {
   writeState(path, before.conductor.state());
   RigDay day(Conductor(plan, readState(path)), before.now + 50000);
   EXPECT_EQ(day.conductor.instruction().step, 6u);
-  EXPECT_EQ(day.conductor.instruction().kind, InstructionKind::kMount);
+  EXPECT_EQ(day.conductor.instruction().kind, StepKind::kMount);
   EXPECT_TRUE(day.conductor.instruction().confirm);
   EXPECT_FALSE(day.conductor.recording());
   day.stay(5);

@@ -16,7 +16,6 @@
 namespace {
 
 using namespace fsr::session;
-using fsr::session::StepFate;
 using rig_day::planFrom;
 using rig_day::RigDay;
 namespace fs = std::filesystem;
@@ -56,35 +55,15 @@ ConductorState dayWithTrouble(RigDay& day) {
   return day.conductor.state();
 }
 
-TEST_F(DayRecord, SaysOfEachStepWhatBecameOfIt) {
-  const auto plan = planFrom(kDay);
-  RigDay rig(plan);
-  const auto day = dayRecord(plan, dayWithTrouble(rig), folder_.string());
-  ASSERT_EQ(day.mounts.size(), 2u);
-  const auto& steps = day.mounts[0].steps;
-  ASSERT_EQ(steps.size(), 6u);
-  EXPECT_TRUE(steps[1].conditioning);
-  EXPECT_EQ(steps[3].fate, StepFate::kAccepted);
-  EXPECT_EQ(steps[3].rejected, 1u);
-  ASSERT_EQ(steps[3].remarks.size(), 1u);
-  EXPECT_EQ(steps[3].remarks[0].rfind("rejected (peak_missed): ", 0), 0u) << steps[3].remarks[0];
-  EXPECT_EQ(steps[4].fate, StepFate::kSkipped);
-  EXPECT_EQ(steps[5].fate, StepFate::kOpen);
-  EXPECT_EQ(day.mounts[1].surface, "cylinder_5cm");
-  EXPECT_FALSE(day.plan_limits.empty());
-}
-
 TEST_F(DayRecord, FindsTheBagsOfEachMount) {
   const auto plan = planFrom(kDay);
   for (const char* const name :
        {"_my__day_01_flat.bag", "_my__day_01_flat_part10.bag", "_my__day_01_flat_part2.bag",
         "_my__day_01_flat_part3.bag.active", "_my__day_01_flat_copy.bag", "other_01_flat.bag"})
     touch(name);
-  const auto day = dayRecord(plan, Conductor(plan).state(), folder_.string());
-  EXPECT_EQ(day.mounts[0].bags,
+  EXPECT_EQ(bagsOf(dayOf(plan, Conductor(plan).state(), folder_.string())),
             (std::vector<std::string>{"_my__day_01_flat.bag", "_my__day_01_flat_part2.bag",
                                       "_my__day_01_flat_part10.bag"}));
-  EXPECT_TRUE(day.mounts[1].bags.empty());
   EXPECT_EQ(freeBagName(folder_.string(), bagStem(plan.name, 1, "flat")), path("_my__day_01_flat_part4"));
 }
 

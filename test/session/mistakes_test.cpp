@@ -165,7 +165,7 @@ TEST(Conductor, OneSpikeSpoilsNothing) {
   day.conductor.pressure(day.now + 0.05, 0);
   day.ramp(0, kFill), day.stay(1);
   EXPECT_EQ(day.rejected(), Names{}) << day.last.sentence;
-  EXPECT_EQ(day.conductor.instruction().cycle, 2u);
+  EXPECT_EQ(day.conductor.instruction().number, 2u);
 }
 
 constexpr char kOthers[] =
@@ -198,7 +198,7 @@ TEST(Conductor, ARestMayEndEarlyWithinTheToleranceOfDwells) {
   day.stay(18.8);
   day.ramp(200e3, kFill), day.ramp(400e3, kFill), day.ramp(200e3, kFill), day.stay(0.5);
   EXPECT_EQ(day.rejected(), Names{}) << day.last.sentence;
-  EXPECT_EQ(day.conductor.instruction().cycle, 2u);
+  EXPECT_EQ(day.conductor.instruction().number, 2u);
 }
 
 TEST(Conductor, SaysWhenRestIsNotReached) {

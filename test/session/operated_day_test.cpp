@@ -10,19 +10,18 @@
 #include <sstream>
 
 #include "emulator/board.h"
-#include "emulator/operator.h"
 #include "fsr_pressure_map/health/taxel_watch.h"
 #include "protocol/wire_decoder.h"
 #include "session/conductor.h"
 #include "session/plan_file.h"
 #include "simulation/settings_text.h"
+#include "support/clumsy_operator.h"
 #include "support/source_dir.h"
 
 namespace {
 
 using fsr::emulator::Act;
 using fsr::emulator::Board;
-using fsr::emulator::Operator;
 using fsr::emulator::Task;
 using fsr::emulator::TaskKind;
 using fsr::session::Conductor;
@@ -31,6 +30,8 @@ using fsr::session::Outcome;
 using fsr::session::ScanSummary;
 using fsr::session::SessionPlan;
 using fsr::session::StepState;
+using test_support::ClumsyOperator;
+using test_support::Notice;
 
 // Has a step for each mistake; 6 minutes without conditioning and changes.
 constexpr char kPlan[] =
@@ -53,11 +54,11 @@ Task toTask(const Instruction& now) {
   task.step = static_cast<std::uint32_t>(now.step);
   task.surface = now.surface;
   task.mount = now.mount;
-  task.cycle = now.cycle;
-  task.cycles = now.cycles;
+  task.cycle = now.number;
+  task.cycles = now.of;
   task.low = now.low;
   task.peak = now.peak;
-  task.rate = now.rate;
+  task.rate = now.fill_rate > 0 ? now.fill_rate : now.vent_rate;
   task.dwell_peak = now.dwell_peak;
   task.dwell_rest = now.dwell_rest;
   task.duration = now.duration;
@@ -98,7 +99,7 @@ class OperatedDay : fsr::protocol::PacketHandler {
       now = board_.nextDue();
       for (const Act& act : person.takeActs(now)) perform(act);
       auto& packet = board_.next([this](double time) { return person.gaugePressure(time); });
-      if (plugged_) decoder_.feed(packet.data(), packet.size());
+      if (!line_.unplugged) decoder_.feed(packet.data(), packet.size());
       conductor->tick(now);
       note();
       if (now < next_look_) continue;
@@ -122,13 +123,20 @@ class OperatedDay : fsr::protocol::PacketHandler {
   }
 
  private:
-  static fsr::emulator::OperatorOptions options(const SessionPlan& plan, const std::string& script,
-                                                unsigned seed) {
-    fsr::emulator::OperatorOptions options;
-    options.seed = seed;
-    options.mistakes = fsr::emulator::readMistakes(script);
-    for (const auto& surface : plan.surfaces) options.shelf.push_back(surface.surface.name);
+  static test_support::ClumsyOptions options(const SessionPlan& plan, const std::string& script,
+                                             unsigned seed) {
+    test_support::ClumsyOptions options;
+    options.person.seed = seed;
+    options.script = script;
+    for (const auto& one : plan.surfaces) options.shelf.push_back(one.surface.name);
+    options.surface_called = [plan](const std::string& name) { return surfaceOf(plan, name); };
     return options;
+  }
+  static fsr::matrix::Surface surfaceOf(const SessionPlan& plan, const std::string& name) {
+    for (const auto& one : plan.surfaces) {
+      if (one.surface.name == name) return one.surface;
+    }
+    throw std::out_of_range(name);
   }
   static fsr::simulation::SimulationSettings bench(unsigned seed, bool mounts_differ) {
     std::ifstream file(test_support::sourceDir() + "/config/simulation/bench.yaml");
@@ -145,48 +153,16 @@ class OperatedDay : fsr::protocol::PacketHandler {
     return pattern;
   }
   void perform(const Act& act) {
-    switch (act.kind) {
-      case Act::Kind::kConfirm:
-        conductor->confirm();
-        break;
-      case Act::Kind::kUnplugBoard:
-      case Act::Kind::kPlugBoard:
-        plugged_ = act.kind == Act::Kind::kPlugBoard;
-        break;
-      case Act::Kind::kUnplugTransducer:
-        board_.setTransducer(Board::TransducerLine::kUnplugged, now);
-        break;
-      case Act::Kind::kSilenceTransducer:
-        board_.setTransducer(Board::TransducerLine::kSilent, now);
-        break;
-      case Act::Kind::kPlugTransducer:
-        board_.setTransducer(Board::TransducerLine::kWorks, now);
-        break;
-      case Act::Kind::kLoseTaxel:
-        board_.loseTaxel(5);  // one that has neighbours on all sides
-        break;
-      case Act::Kind::kFixTaxels:
-        board_.fixTaxels();
-        break;
-      case Act::Kind::kCloseTerminal:
-        conductor = std::make_unique<Conductor>(plan_, conductor->state());
-        break;
-      case Act::Kind::kPutOn:
-        for (const auto& planned : plan_.surfaces) {
-          if (planned.surface.name == act.surface) putOn(planned.surface, act);
-        }
-        break;
-      case Act::Kind::kTakeOff:
-        board_.mount({"", 0, {fsr::matrix::Curvature{}}, {}}, nothing());
-        break;
+    if (act.kind == Act::Kind::kConfirm) conductor->confirm();
+    if (act.kind == Act::Kind::kTakeOff) board_.mount({"", 0, {fsr::matrix::Curvature{}}, {}}, nothing());
+    if (act.kind == Act::Kind::kPutOn) {
+      fsr::matrix::Surface surface = surfaceOf(plan_, act.surface);
+      surface.mount = act.mount;
+      board_.mount(surface);
     }
-  }
-  void putOn(fsr::matrix::Surface surface, const Act& act) {
-    surface.mount = act.mount;
-    for (fsr::matrix::Curvature& one : surface.curvature) {
-      if (act.turned_over) one = {-one.x, -one.y, one.xy};
-    }
-    board_.mount(surface);
+    if (act.words == test_support::kCloseTerminal)
+      conductor = std::make_unique<Conductor>(plan_, conductor->state());
+    if (act.change) act.change(board_, line_, now);
   }
   void note() {
     for (const Outcome& outcome : conductor->takeOutcomes()) {
@@ -226,13 +202,13 @@ class OperatedDay : fsr::protocol::PacketHandler {
   SessionPlan plan_;
   Board board_;
   fsr::health::TaxelWatch watch_{{3, 4}, 4095};
-  bool plugged_ = true;
+  fsr::emulator::LineDamage line_;
   static constexpr double kLook = 0.5;  // from one look at the panel to the next [s]
   double next_look_ = 0;
   std::uint32_t next_scan_ = 0;
 
  public:
-  Operator person;
+  ClumsyOperator person;
   std::unique_ptr<Conductor> conductor;
   double now = 0;                // [s]
   bool zero_is_ambient = false;  // of the transducer, so that it reads 0 kPa gauge where it is unplugged
@@ -279,12 +255,12 @@ std::vector<StepOfMount> mountStepsOf(const SessionPlan& plan) {
 class OperatedDayMistake : public testing::TestWithParam<std::string> {};
 
 TEST_P(OperatedDayMistake, IsNamedRightlyAndCostsNothingElse) {
-  const auto& mistake = fsr::emulator::mistakeCalled(GetParam());
+  const auto& mistake = test_support::mistakeCalled(GetParam());
   OperatedDay day(planOf(kPlan), mistake.name);
   EXPECT_TRUE(day.run(kLimit)) << day.told();
   ASSERT_EQ(day.person.made().size(), 1u) << day.told();
   for (const StepState state : day.conductor->states()) EXPECT_EQ(state, StepState::kAccepted);
-  if (mistake.notice != fsr::emulator::Notice::kPressure) {
+  if (mistake.notice != Notice::kPressure) {
     EXPECT_TRUE(day.remarks.empty()) << day.told();
     return;
   }
@@ -381,7 +357,7 @@ INSTANTIATE_TEST_SUITE_P(All, ManyDays, testing::Values("field_check", "paper", 
 
 std::vector<std::string> allMistakes() {
   std::vector<std::string> names;
-  for (const auto& mistake : fsr::emulator::mistakes()) names.push_back(mistake.name);
+  for (const auto& mistake : test_support::mistakes()) names.push_back(mistake.name);
   return names;
 }
 

@@ -43,7 +43,8 @@ void warnOfOtherTime(double time_scale) {
 
 }  // namespace
 
-RigEmulator::RigEmulator(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle)
+RigEmulator::RigEmulator(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle,
+                         const RigOperator::MakePerson& make)
     : parameters_(private_handle) {
   ros::NodeHandle global(handle), own(private_handle);
   fsr::emulator::EmulatorOptions options = readOptions();
@@ -56,7 +57,7 @@ RigEmulator::RigEmulator(const ros::NodeHandle& handle, const ros::NodeHandle& p
     options.on_clock = [this](double rig_time) { publishClock(rig_time); };
   }
   if (parameters_.flag("operator", false)) {
-    operator_ = std::make_unique<RigOperator>(handle, private_handle, parameters_, surfaces_, options);
+    operator_ = std::make_unique<RigOperator>(handle, private_handle, parameters_, surfaces_, make, options);
   }
   rig_ = std::make_unique<fsr::emulator::Emulator>(options);
   services_ = {own.advertiseService("set_damage", &RigEmulator::setDamage, this)};

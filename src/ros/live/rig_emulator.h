@@ -34,8 +34,10 @@ namespace fsr_ros {
 /// Parameters: see launch/rig_emulator.launch and docs/nodes.md.
 class RigEmulator {
  public:
-  /// Throws fsr::InputError.
-  RigEmulator(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle);
+  /// `make`: the operator; tests give one who makes mistakes. Throws fsr::InputError.
+  RigEmulator(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle,
+              const RigOperator::MakePerson& make =
+                  std::make_shared<fsr::emulator::Operator, const fsr::emulator::OperatorOptions&>);
 
  private:
   fsr::simulation::SimulationSettings readSimulation();

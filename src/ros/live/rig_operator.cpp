@@ -1,16 +1,11 @@
 #include "ros/live/rig_operator.h"
 
-#include <XmlRpc.h>
 #include <ros/console.h>
-#include <ros/master.h>
-#include <ros/network.h>
 #include <ros/service.h>
-#include <ros/this_node.h>
 #include <std_msgs/String.h>
 #include <std_srvs/Trigger.h>
 
 #include <chrono>
-#include <sstream>
 
 namespace fsr_ros {
 
@@ -52,13 +47,11 @@ fsr::emulator::Task toTask(const fsr_pressure_map::Instruction& instruction) {
 }
 
 RigOperator::RigOperator(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle,
-                         const Parameters& parameters, const SurfaceFolder& surfaces,
+                         const Parameters& parameters, const SurfaceFolder& surfaces, const MakePerson& make,
                          fsr::emulator::EmulatorOptions& options)
     : handle_(handle), folder_(surfaces) {
   ros::NodeHandle own(private_handle);
   fsr::emulator::OperatorOptions person;
-  person.mistakes = fsr::emulator::readMistakes(parameters.text("mistakes", ""));
-  person.shelf = readShelf(parameters);
   person.seed = options.simulation.seed;
   person.lies_on = options.surface.name;
   const double change = parameters.number("change", 30, {0, 3600, "s"});
@@ -66,13 +59,11 @@ RigOperator::RigOperator(const ros::NodeHandle& handle, const ros::NodeHandle& p
   person.habits.change_most = kSlowest * change;
   confirm_ = parameters.text("confirm", "conduct/confirm");
   if (confirm_ == kPerson) confirm_.clear();
-  conductor_ = parameters.text("conductor", "conduct");
-  options.person = person;
+  options.person = make(person);
   options.autostart = false;
   options.surface_called = [this](const std::string& name) { return surfaceCalled(name); };
   options.on_act = [this](const fsr::emulator::Act& act) { onAct(act); };
   acts_ = own.advertise<std_msgs::String>("acts", 100);
-  mistakes_ = own.advertise<std_msgs::String>("mistakes", 10, true);
   caller_ = std::thread([this] { callServices(); });
 }
 
@@ -90,22 +81,6 @@ void RigOperator::workAt(fsr::emulator::Emulator& rig) {
   instructions_ = handle_.subscribe("instruction", 100, &RigOperator::onInstruction, this);
 }
 
-std::vector<std::string> RigOperator::readShelf(const Parameters& parameters) {
-  std::vector<std::string> shelf;
-  std::istringstream given(parameters.text("shelf", ""));
-  for (std::string name; std::getline(given, name, ',');) shelf.push_back(name);
-  if (!shelf.empty()) return shelf;
-  for (const std::string& name : folder_.names()) {
-    try {
-      surfaceCalled(name);
-      shelf.push_back(name);
-    } catch (const fsr::settings::InputError& error) {
-      ROS_DEBUG_STREAM("not on the shelf: " << error.what());  // e.g. made for a matrix of another size
-    }
-  }
-  return shelf;
-}
-
 fsr::matrix::Surface RigOperator::surfaceCalled(const std::string& name) {
   const std::lock_guard<std::mutex> lock(mutex_);
   const auto known = surfaces_.find(name);
@@ -119,29 +94,13 @@ void RigOperator::onInstruction(const fsr_pressure_map::Instruction& instruction
   } catch (const fsr::settings::InputError& error) {
     ROS_WARN_STREAM_THROTTLE(10, error.what());
   }
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    if (!instruction.confirm) to_confirm_ = false;  // somebody else has confirmed
-    const std::string asked =
-        instruction.confirm ? instruction.surface + ", mount " + std::to_string(instruction.mount) : "";
-    if (asked != asked_ || instruction.text != asked_text_) asked_for_ = false;
-    asked_ = asked;
-    asked_text_ = instruction.text;
-  }
-  publishMistakes();
-}
-
-void RigOperator::publishMistakes() {
-  const auto made = rig_->mistakesMade();
-  if (made.size() == published_) return;
-  std::string all;
-  for (const auto& mistake : made) {
-    all += (all.empty() ? "" : ", ") + mistake.name + "@" + std::to_string(mistake.step);
-  }
-  published_ = made.size();
-  ROS_INFO_STREAM(
-      "the operator makes a mistake: " << fsr::emulator::mistakeCalled(made.back().name).description);
-  mistakes_.publish(text(all));
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!instruction.confirm) to_confirm_ = false;  // somebody else has confirmed
+  const std::string asked =
+      instruction.confirm ? instruction.surface + ", mount " + std::to_string(instruction.mount) : "";
+  if (asked != asked_ || instruction.text != asked_text_) asked_for_ = false;
+  asked_ = asked;
+  asked_text_ = instruction.text;
 }
 
 // In the thread of the emulator.
@@ -155,7 +114,6 @@ void RigOperator::onAct(const fsr::emulator::Act& act) {
   acts_.publish(text(describe(act)));
   const std::lock_guard<std::mutex> lock(mutex_);
   to_confirm_ = to_confirm_ || act.kind == Kind::kConfirm;
-  to_close_ = to_close_ || act.kind == Kind::kCloseTerminal;
   changed_.notify_all();
 }
 
@@ -174,14 +132,12 @@ void RigOperator::askForConfirmation() {
 void RigOperator::callServices() {
   std::unique_lock<std::mutex> lock(mutex_);
   while (!stopping_) {
-    changed_.wait(lock, [this] { return to_confirm_ || to_close_ || stopping_; });
+    changed_.wait(lock, [this] { return to_confirm_ || stopping_; });
     if (stopping_) return;
-    const bool close = std::exchange(to_close_, false), wants_confirmation = to_confirm_;
     lock.unlock();
-    if (close) closeTerminal();
-    const bool confirmed = !wants_confirmation || confirm();
+    const bool confirmed = confirm();
     lock.lock();
-    if (confirmed && wants_confirmation) to_confirm_ = false;
+    if (confirmed) to_confirm_ = false;
     if (!confirmed) changed_.wait_for(lock, kAgain, [this] { return stopping_; });
   }
 }
@@ -195,24 +151,6 @@ bool RigOperator::confirm() {
   }
   ROS_INFO_STREAM("operator: confirmed: " << service.response.message);
   return true;
-}
-
-// Ends the conductor as a closed terminal does. Who started it may start it again.
-void RigOperator::closeTerminal() {
-  const std::string node = handle_.resolveName(conductor_);
-  XmlRpc::XmlRpcValue request, response, payload;
-  request[0] = ros::this_node::getName();
-  request[1] = node;
-  std::string host;
-  std::uint32_t port = 0;
-  if (!ros::master::execute("lookupNode", request, response, payload, false) ||
-      !ros::network::splitURI(static_cast<std::string>(payload), host, port)) {
-    ROS_WARN_STREAM("operator: there is no node " << node << " to close");
-    return;
-  }
-  request[1] = "the operator closed the terminal";
-  XmlRpc::XmlRpcClient client(host.c_str(), static_cast<int>(port), "/");
-  client.execute("shutdown", request, response);
 }
 
 }  // namespace fsr_ros

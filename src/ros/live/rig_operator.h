@@ -4,7 +4,9 @@
 #include <ros/node_handle.h>
 
 #include <condition_variable>
+#include <functional>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -22,16 +24,18 @@ fsr::emulator::Task toTask(const fsr_pressure_map::Instruction& instruction);
 /// service `confirm` where that is asked for. Without the name of a service another person confirms, and is
 /// told once when it is time.
 ///
-/// Topics: `~acts` (std_msgs/String), what is done with the hands, e.g. "put the sheet on flat", and when
-/// another person is to confirm; `~mistakes`
-/// (std_msgs/String, latched), all mistakes made so far with their steps, e.g. "leak@12, too_fast@20".
+/// Topic: `~acts` (std_msgs/String), what is done with the hands, e.g. "put the sheet on flat", and when
+/// another person is to confirm.
 ///
-/// Parameters: `~mistakes`, `~shelf`, `~change`, `~confirm`, `~conductor`; see launch/rig_emulator.launch.
+/// Parameters: `~change`, `~confirm`; see launch/rig_emulator.launch.
 class RigOperator {
  public:
+  using Person = std::shared_ptr<fsr::emulator::Operator>;
+  using MakePerson = std::function<Person(const fsr::emulator::OperatorOptions&)>;
+
   /// Adds the person to the options of the rig. Throws fsr::InputError.
   RigOperator(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle,
-              const Parameters& parameters, const SurfaceFolder& surfaces,
+              const Parameters& parameters, const SurfaceFolder& surfaces, const MakePerson& make,
               fsr::emulator::EmulatorOptions& options);
   ~RigOperator();
   RigOperator(const RigOperator&) = delete;
@@ -42,29 +46,25 @@ class RigOperator {
 
  private:
   fsr::matrix::Surface surfaceCalled(const std::string& name);
-  std::vector<std::string> readShelf(const Parameters& parameters);
   void onInstruction(const fsr_pressure_map::Instruction& instruction);
   void onAct(const fsr::emulator::Act& act);
-  void publishMistakes();
   void askForConfirmation();
   void callServices();
   bool confirm();
-  void closeTerminal();
 
   ros::NodeHandle handle_;
   SurfaceFolder folder_;
-  std::string confirm_, conductor_;  // names of the service, empty = a person confirms, and of the node
-  ros::Publisher acts_, mistakes_;
+  std::string confirm_;  // name of the service; empty = a person confirms
+  ros::Publisher acts_;
   ros::Subscriber instructions_;
   fsr::emulator::Emulator* rig_ = nullptr;
-  std::size_t published_ = 0;  // mistakes
 
   std::mutex mutex_;                                      // guards everything below
   std::map<std::string, fsr::matrix::Surface> surfaces_;  // that were read
   std::condition_variable changed_;
   std::string asked_, asked_text_;  // surface and mount to be confirmed, empty = none, and the instruction
   bool asked_for_ = false;          // the other person was told so
-  bool to_confirm_ = false, to_close_ = false, stopping_ = false;
+  bool to_confirm_ = false, stopping_ = false;
   std::thread caller_;  // calls services, so that rig time goes on meanwhile
 };
 

@@ -13,6 +13,7 @@
 #include "ros/bags/rescue_bag.h"
 #include "ros/bags/resource_path.h"
 #include "ros/bags/surface_folder.h"
+#include "ros/live/serve.h"
 #include "ros/messages/image_message.h"
 #include "ros/messages/surface_message.h"
 #include "session/coverage.h"
@@ -336,11 +337,11 @@ void ConductServer::publishInstruction(const fsr::session::Instruction& now) {
   message.text = now.text;
   message.surface = now.surface;
   message.mount = now.mount;
-  message.cycle = now.cycle;
-  message.cycles = now.cycles;
+  message.cycle = now.number;
+  message.cycles = now.of;
   message.low = now.low;
   message.peak = now.peak;
-  message.rate = now.rate;
+  message.rate = now.fill_rate > 0 ? now.fill_rate : now.vent_rate;
   message.dwell_peak = now.dwell_peak;
   message.dwell_rest = now.dwell_rest;
   message.duration = now.duration;
@@ -486,6 +487,27 @@ void ConductServer::followRecording() {
     recorder_idle_.reset();
   }
   if (wanted && !recorder_ && ros::SteadyTime::now() >= recorder_retry_) startRecording();
+}
+
+std::unique_ptr<ConductServer> waitForSession(const ros::NodeHandle& handle,
+                                              const ros::NodeHandle& private_handle) {
+  ros::NodeHandle own(handle);
+  ros::Publisher instruction;
+  std::string said;
+  std::unique_ptr<ConductServer> server;
+  const auto make = [&] { server = std::make_unique<ConductServer>(handle, private_handle); };
+  makeUntilRight(make, [&](const std::string& sentence) {
+    if (said != sentence) ROS_ERROR_STREAM("the session cannot begin: " << sentence);
+    said = sentence;
+    if (!instruction) instruction = own.advertise<fsr_pressure_map::Instruction>("instruction", 1, true);
+    fsr_pressure_map::Instruction message;
+    message.header.stamp = ros::Time::now();
+    message.kind = fsr_pressure_map::Instruction::BREAK;
+    message.text = "The session cannot begin. Put right what is said below; it is tried again each second.";
+    message.remark = sentence;
+    instruction.publish(message);
+  });
+  return server;
 }
 
 }  // namespace fsr_ros

@@ -79,8 +79,8 @@ class Parts {
       part.printed = contentOf(files.output);
       part.refused = whyItFailed(program, files.errors);
       if (part.refused.empty() && !json.empty())
-        part.result = fsr::report::Json::parse(contentOf(fs::path(folder_) / json));
-    } catch (const fsr::report::Json::exception&) {
+        part.result = fsr::session::Json::parse(contentOf(fs::path(folder_) / json));
+    } catch (const fsr::session::Json::exception&) {
       part.refused = json + ": is no complete JSON";
     } catch (const InputError& error) {
       part.refused = error.what();
@@ -94,20 +94,13 @@ class Parts {
   std::string folder_, results_;
 };
 
-Words bagsOf(const DayReport& day) {
-  Words bags;
-  for (const fsr::session::DayMount& mount : day.mounts)
-    bags.insert(bags.end(), mount.bags.begin(), mount.bags.end());
-  return bags;
-}
-
 Words operator+(Words words, const Words& more) {
   words.insert(words.end(), more.begin(), more.end());
   return words;
 }
 
 void runTools(const fsr::settings::CommandLine& line, const std::string& folder, DayReport& day) {
-  const Parts parts(folder, fsr::session::resultsFolderName(day.plan));
+  const Parts parts(folder, fsr::session::resultsFolderName(day.plan.name));
   const Words bags = bagsOf(day);
   if (bags.empty()) {
     day.check.refused = day.training.refused = day.discrepancy.refused =
@@ -118,7 +111,7 @@ void runTools(const fsr::settings::CommandLine& line, const std::string& folder,
   progress("check_bag", 0);
   day.check = parts.run("check_bag", bags, "");
   progress("train", 0.1);
-  Words words = bags + Words{"--output", day.calibration, "--report", parts.in("training.json")};
+  Words words = bags + Words{"--output", day.calibration, "--details", "--report", parts.in("training.json")};
   if (line.has("transducer")) words = words + Words{"--transducer", line.text("transducer", "")};
   day.training = parts.run("train", words, parts.in("training.json"));
   progress("discrepancy", 0.4);
@@ -142,7 +135,7 @@ DayReport recordOf(const fsr::settings::CommandLine& line, const std::string& fo
         ": is missing, so that the steps of the session are not known; give its plan with --plan");
   const auto plan = fsr::session::readPlanFile(plan_file, line.text("surfaces", ""));
   const RescuedSession rescued = rescueSession(folder, plan.name);
-  DayReport day = fsr::session::dayRecord(plan, state, folder);
+  DayReport day = fsr::session::dayOf(plan, state, folder);
   day.closed_now = rescued.closed;
   day.not_closed = rescued.open;
   return day;
@@ -170,8 +163,7 @@ int dayReportTool(int argc, const char* const* argv, std::ostream& out) {
   checkOptions(line);
   const std::string folder = fs::absolute(line.files().front()).lexically_normal().string();
   DayReport day = recordOf(line, folder);
-  day.calibration = fsr::session::calibrationFileName(day.plan);
-  const std::string page = (fs::path(folder) / fsr::session::reportFileName(day.plan)).string();
+  const std::string page = (fs::path(folder) / fsr::session::reportFileName(day.plan.name)).string();
   fsr::settings::requireReplaceable(page, fsr::settings::file_kind::kPage);
   runTools(line, folder, day);
   fsr::settings::replaceFile(page, fsr::session::dayHtml(day));
