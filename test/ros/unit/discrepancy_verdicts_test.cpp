@@ -65,7 +65,7 @@ class DiscrepancyVerdicts : public testing::Test {
     EXPECT_NE(said.find("Written: "), std::string::npos) << said;
     return fsr::report::readVerdict(path("out/verdict.yaml"));
   }
-  fsr::report::VerdictFile hidden(const char* rig, const std::string& effects, const Words& more = {}) const {
+  fsr::report::VerdictFile hidden(const std::string& rig, const std::string& effects, const Words& more = {}) const {
     return verdict({session("bags", fsr::discrepancy::planted::problem(rig, effects))}, more);
   }
 
