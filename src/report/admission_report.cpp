@@ -96,7 +96,7 @@ std::string verdict(const discrepancy::Admission& admission, const std::vector<s
   return "Fit for training; not for discrepancy, because " + admission.discrepancy + "." + look;
 }
 
-void addRests(const calibration::SocketCheck& check, std::ostringstream& out) {
+void addRests(const check::SocketCheck& check, std::ostringstream& out) {
   for (const auto& [name, rest] : {std::pair{"before", &check.before}, std::pair{"after", &check.after}}) {
     out << "Rest " << name << ": ";
     if (*rest) {
@@ -136,7 +136,7 @@ std::string admissionText(const discrepancy::Admission& admission) {
   return out.str();
 }
 
-std::string socketText(const calibration::SocketCheck& check) {
+std::string socketText(const check::SocketCheck& check) {
   std::ostringstream out;
   out << check.name << '\n';
   addRests(check, out);

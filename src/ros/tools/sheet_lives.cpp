@@ -1,0 +1,254 @@
+#include "ros/tools/sheet_lives.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "check/sheet_life.h"
+#include "fsr_pressure_map/calibration/calibration_file.h"
+#include "fsr_pressure_map/ros/bag_reader.h"
+#include "fsr_pressure_map/settings/input_error.h"
+#include "report/life/life_report.h"
+#include "ros/tools/bag_options.h"
+#include "ros/tools/figure_script.h"
+#include "ros/tools/tool_progress.h"
+#include "settings/file_kind.h"
+#include "settings/foreign_error.h"
+#include "settings/replace_file.h"
+
+namespace fsr_ros {
+
+namespace {
+
+namespace fs = std::filesystem;
+namespace check = fsr::check;
+using fsr::calibration::Calibration;
+using fsr::settings::InputError;
+
+constexpr int kSkipped = 1;         // exit status if a file could not be used
+constexpr int kFiguresMissing = 3;  // if only the figures could not be drawn
+
+// A bag or calibration file below the folder.
+struct FoundFile {
+  std::string path;
+  std::string shown;  // relative to the folder
+  bool bag = false;
+};
+
+std::vector<FoundFile> filesIn(const std::string& folder) {
+  std::vector<FoundFile> files;
+  std::error_code error;
+  const auto how = fs::directory_options::skip_permission_denied;
+  for (fs::recursive_directory_iterator entry(folder, how, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const std::string ending = entry->path().extension().string();
+    if (!entry->is_regular_file() || (ending != ".bag" && ending != ".h5")) continue;
+    files.push_back({entry->path().string(), fs::relative(entry->path(), folder).string(), ending == ".bag"});
+  }
+  if (error) throw InputError(folder + ": cannot be read: " + error.message());
+  std::sort(files.begin(), files.end(),
+            [](const FoundFile& a, const FoundFile& b) { return a.shown < b.shown; });
+  if (files.empty()) {
+    throw InputError(folder +
+                     ": has no bag (.bag) and no calibration file (.h5), also not in its subfolders");
+  }
+  return files;
+}
+
+// The calibration that the gain of a sheet refers to.
+struct First {
+  std::string file;
+  std::int64_t date_ns = 0;
+  Calibration calibration;
+};
+
+class History {
+ public:
+  explicit History(const fsr::settings::CommandLine& line) : line_(line) {
+    if (!line.has("first")) return;
+    const std::string path = line.text("first", "");
+    Calibration calibration = fsr::calibration::loadCalibration(path);
+    const std::string sheet = check::sheetOf(calibration.sensor);
+    firsts_[sheet] = First{path, 0, std::move(calibration)};
+    chosen_ = sheet;
+  }
+
+  void read(const std::vector<FoundFile>& files) {
+    const ToolProgress progress = toolProgress();
+    progress("looking for the first calibrations", 0);
+    findFirsts(files);
+    double done = 0;
+    for (const FoundFile& file : files) {
+      progress("reading " + file.shown, done++ / static_cast<double>(files.size()));
+      if (refused_.count(file.path) == 0) trying(file, [&] { add(file, stateOf(file)); });
+    }
+  }
+
+  std::vector<check::SheetLife> lives() const {
+    check::LifeOptions options;
+    options.surface = line_.text("surface", "");
+    options.level = line_.number("level", options.level, {1e-4, 0.2, ""});
+    std::vector<check::SheetLife> lives;
+    for (const auto& [sheet, states] : states_) {
+      const auto first = firsts_.find(sheet);
+      lives.push_back(check::lifeOf(states, first == firsts_.end() ? "" : first->second.file, options));
+    }
+    return lives;
+  }
+
+  const std::vector<fsr::report::SkippedFile>& skipped() const { return skipped_; }
+
+ private:
+  // What cannot be read is remembered, and the others are read all the same.
+  template <typename Use>
+  void trying(const FoundFile& file, const Use& use) {
+    try {
+      use();
+    } catch (const std::exception& error) {
+      std::string reason = fsr::settings::sentenceOf(error).what();
+      if (reason.rfind(file.path + ": ", 0) == 0) reason.erase(0, file.path.size() + 2);
+      skipped_.push_back({file.shown, reason});
+      refused_[file.path] = true;
+    }
+  }
+
+  // The earliest calibration of each sheet.
+  void findFirsts(const std::vector<FoundFile>& files) {
+    for (const FoundFile& file : files) {
+      if (file.bag) continue;
+      trying(file, [&] {
+        Calibration calibration = fsr::calibration::loadCalibration(file.path);
+        const std::string sheet = check::sheetOf(calibration.sensor);
+        const std::int64_t date = dates_[file.path] = dateOf(calibration, files);
+        const auto known = firsts_.find(sheet);
+        if (sheet == chosen_ || (known != firsts_.end() && known->second.date_ns <= date)) return;
+        firsts_[sheet] = First{file.shown, date, std::move(calibration)};
+      });
+    }
+  }
+
+  // When the first bag of the folder from which it was trained was recorded; where none is in the folder, the
+  // date of the training.
+  std::int64_t dateOf(const Calibration& calibration, const std::vector<FoundFile>& files) {
+    std::optional<std::int64_t> first;
+    for (const fsr::calibration::SourceBag& source : calibration.provenance.bags) {
+      for (const FoundFile& file : files) {
+        if (!file.bag || source.sha256.empty() || fs::path(file.path).filename() != source.name) continue;
+        const auto& [sha256, start_ns] = identityOf(file.path);
+        if (sha256 == source.sha256 && (!first || start_ns < *first)) first = start_ns;
+      }
+    }
+    return first ? *first : check::dateOf(calibration.provenance.date);
+  }
+
+  // SHA-256 and start [ns] of a bag; empty where it cannot be read, which is named when its turn comes.
+  const std::pair<std::string, std::int64_t>& identityOf(const std::string& path) {
+    const auto [place, fresh] = identities_.try_emplace(path);
+    if (!fresh) return place->second;
+    try {
+      const fsr::dataset::Recording recording = readBag(path, bagReadOptions(line_));
+      place->second = {recording.sha256, recording.start_ns};
+    } catch (const std::exception&) {
+    }
+    return place->second;
+  }
+
+  const Calibration* firstOf(const std::string& sheet) const {
+    const auto found = firsts_.find(sheet);
+    return found == firsts_.end() ? nullptr : &found->second.calibration;
+  }
+
+  check::SheetState stateOf(const FoundFile& file) {
+    if (!file.bag) {
+      const Calibration calibration = fsr::calibration::loadCalibration(file.path);
+      check::SheetState state = check::stateOf(calibration, firstOf(check::sheetOf(calibration.sensor)));
+      state.date_ns = dates_.at(file.path);
+      return state;
+    }
+    const fsr::dataset::Recording recording = readBag(file.path, bagReadOptions(line_));
+    const auto [twin, fresh] = hashes_.emplace(recording.sha256, file.shown);
+    if (!fresh) throw InputError("it is a copy of " + twin->second + ", which is counted once");
+    return check::stateOf(recording, firstOf(check::sheetOf(recording.sensor)));
+  }
+
+  void add(const FoundFile& file, check::SheetState state) {
+    state.file = file.shown;
+    std::vector<check::SheetState>& states = states_[state.sheet];
+    if (!states.empty() &&
+        (!(states.front().layout.size == state.layout.size) || states.front().full_scale != state.full_scale))
+      throw InputError("it has the serial number of " + states.front().file +
+                       ", but another matrix or converter");
+    states.push_back(std::move(state));
+  }
+
+  const fsr::settings::CommandLine& line_;
+  std::optional<std::string> chosen_;                             // sheet of --first
+  std::map<std::string, First> firsts_;                           // by sheet
+  std::map<std::string, std::vector<check::SheetState>> states_;  // by sheet
+  std::map<std::string, std::int64_t> dates_;                     // of each calibration, by path [ns]
+  std::map<std::string, std::pair<std::string, std::int64_t>> identities_;  // of bags, by path
+  std::map<std::string, std::string> hashes_;                               // of each bag: its name
+  std::map<std::string, bool> refused_;                                     // by path
+  std::vector<fsr::report::SkippedFile> skipped_;
+};
+
+fs::path outputFolder(const fsr::settings::CommandLine& line) {
+  const fs::path folder = fs::absolute(line.text("output", "")).lexically_normal();
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!fs::is_directory(folder)) {
+    throw InputError(folder.string() + ": the folder cannot be created (" + error.message() +
+                     "); give another one with --output");
+  }
+  line.requireWritable((folder / "life.csv").string(), fsr::settings::file_kind::kTable);
+  line.requireWritable((folder / "life.json").string(), fsr::settings::file_kind::kJson);
+  return folder;
+}
+
+// Returns false if the figures are missing.
+bool write(const fs::path& folder, const History& history, const std::vector<check::SheetLife>& lives,
+           bool figures, std::ostream& out) {
+  fsr::settings::replaceFile((folder / "life.csv").string(), fsr::report::lifeCsv(lives));
+  fsr::settings::replaceFile((folder / "life.json").string(),
+                             fsr::report::lifeJson(lives, history.skipped()));
+  out << "Written to " << folder.string() << '\n';
+  if (!figures) return true;
+  try {
+    drawFigures("life.py", {folder.string()});
+  } catch (const InputError& error) {
+    std::cerr << "check_calibration: the figures are missing: " << error.what() << std::endl;
+    return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+int showLives(const fsr::settings::CommandLine& line, std::ostream& out) {
+  if (line.files().size() != 1) throw InputError(line.files()[1] + ": give one folder");
+  line.number("level", 0.01, {1e-4, 0.2, ""});  // before the bags are read
+  const std::vector<FoundFile> files = filesIn(line.files().front());
+  std::optional<fs::path> folder;
+  if (line.has("output")) folder = outputFolder(line);
+  History history(line);
+  history.read(files);
+  const std::vector<check::SheetLife> lives = history.lives();
+  if (lives.empty()) {
+    const fsr::report::SkippedFile& skipped = history.skipped().front();
+    throw InputError(line.files().front() + ": none of its files could be used: " + skipped.file + ": " +
+                     skipped.reason);
+  }
+  for (const check::SheetLife& life : lives) out << fsr::report::lifeText(life) << '\n';
+  for (const fsr::report::SkippedFile& skipped : history.skipped())
+    out << "Not used: " << skipped.file << ": " << skipped.reason << '\n';
+  const bool drawn = !folder || write(*folder, history, lives, !line.has("no-figures"), out);
+  if (!history.skipped().empty()) return kSkipped;
+  return drawn ? 0 : kFiguresMissing;
+}
+
+}  // namespace fsr_ros
