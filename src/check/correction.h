@@ -102,42 +102,40 @@ class CorrectionFit {
  private:
   // Shift [counts] and stretch (ratio): counts = pivot + shift + (1 + stretch) (counts before - pivot).
   using Change = Eigen::Vector2d;
-  // Normal equations of a change from some readings.
+  // Normal equations of a step of the change from some readings.
   struct Sums {
     Eigen::Matrix2d matrix = Eigen::Matrix2d::Zero();
     Eigen::Vector2d right = Eigen::Vector2d::Zero();
 
-    // False where the readings do not determine shift and stretch.
-    bool solve(Change& step) const;
+    void add(const Sums& more, double sign = 1);
   };
-  using CycleSums = std::vector<Sums>;  // [cycles]
+  // A change, and the normal equations around it.
+  struct Solution {
+    Change centre = Change::Zero();
+    std::vector<Sums> sums;  // [cycles]
+
+    Sums total(const Cycles& cycles) const;
+    // The change by some sums; false where their readings do not determine it.
+    bool solve(const Sums& of, Change& change) const;
+  };
 
   ReadingChange toReading(const Change& change) const;
-  Sums sheetTotal(const Cycles& cycles) const;
-  // Adds a step to a change, within limits.
-  static Change moved(Change from, const Change& step);
-  // The change of the whole sheet; that of all cycles where these do not determine it.
-  Change sheetOf(const Cycles& cycles) const;
   // Adds the coordinates of a change of the readings behind `sums` to `effects`.
   void addEffect(const Sums& sums, const Change& change, std::vector<double>& effects) const;
-  // Of one taxel around a change. `error`: sum of the squared errors [Pa^2].
-  CycleSums sumsAround(const Change& centre, std::size_t taxel, double& error) const;
-  static Sums totalOf(const CycleSums& sums, const Cycles& cycles);
+  // Adds the readings of one taxel to the sums around a change. Returns the sum of the squared errors [Pa^2].
+  double addTaxel(std::size_t taxel, Solution& around) const;
   void fitSheet();
   void fitTaxel(std::size_t taxel);
-  // The change of one taxel without regard to the others; false where its readings do not determine it.
-  bool alone(std::size_t taxel, const Sums& sums, Change& change) const;
   std::vector<Change> shrunk(const Cycles& cycles, const Change& sheet) const;
-  Change jackknifeVariance(std::size_t taxel, const Cycles& cycles, const Change& whole) const;
+  Change jackknifeVariance(const Solution& taxel, const Cycles& cycles, const Change& whole) const;
 
   const CycleReadings& readings_;
-  Cycles all_;                         // every cycle
-  double pivot_ = 0;                   // mean reading [counts]
-  double number_ = 0;                  // of readings
-  Change sheet_ = Change::Zero();      // fitted to all cycles
-  std::vector<CycleSums> sheet_sums_;  // [taxels], around `sheet_`
-  std::vector<Change> taxels_;         // [taxels], each fitted to all cycles
-  std::vector<CycleSums> taxel_sums_;  // [taxels], around its own change
+  Cycles all_;                          // every cycle
+  double pivot_ = 0;                    // mean reading [counts]
+  double number_ = 0;                   // of readings
+  Solution sheet_;                      // of all taxels and cycles
+  std::vector<Solution> around_sheet_;  // [taxels], around the same change
+  std::vector<Solution> taxels_;        // [taxels], each around its own
 };
 
 /// Leaves each cycle out once. The choice is nested: within the cycles that are left, each is left out again.

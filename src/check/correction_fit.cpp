@@ -40,9 +40,23 @@ Error zeroOf(const CycleReadings::Stay& stay, std::size_t taxel, const ReadingCh
 
 }  // namespace
 
-bool CorrectionFit::Sums::solve(Change& step) const {
-  if (!(matrix.determinant() > kDetermined * matrix(0, 0) * matrix(1, 1))) return false;
-  step = matrix.inverse() * right;
+void CorrectionFit::Sums::add(const Sums& more, double sign) {
+  matrix += sign * more.matrix;
+  right += sign * more.right;
+}
+
+CorrectionFit::Sums CorrectionFit::Solution::total(const Cycles& cycles) const {
+  Sums total;
+  for (std::size_t cycle = 0; cycle < cycles.size(); ++cycle) {
+    if (cycles[cycle]) total.add(sums[cycle]);
+  }
+  return total;
+}
+
+bool CorrectionFit::Solution::solve(const Sums& of, Change& change) const {
+  if (!(of.matrix.determinant() > kDetermined * of.matrix(0, 0) * of.matrix(1, 1))) return false;
+  change = centre + of.matrix.inverse() * of.right;
+  change[1] = std::min(std::max(change[1], -kLargestStretch), 1 / (1 - kLargestStretch));
   return true;
 }
 
@@ -56,10 +70,8 @@ CorrectionFit::CorrectionFit(const CycleReadings& readings)
     }
   }
   if (number_ > 0) pivot_ = sum / number_;
-  sheet_sums_.resize(readings.stays.front().answers.size());
   fitSheet();
-  taxels_.assign(sheet_sums_.size(), sheet_);
-  taxel_sums_ = sheet_sums_;
+  taxels_ = around_sheet_;
   for (std::size_t taxel = 0; taxel < taxels_.size(); ++taxel) fitTaxel(taxel);
 }
 
@@ -67,41 +79,37 @@ ReadingChange CorrectionFit::toReading(const Change& change) const {
   return {1 + change[1], change[0] - change[1] * pivot_};
 }
 
-CorrectionFit::Change CorrectionFit::moved(Change from, const Change& step) {
-  from += step;
-  from[1] = std::min(std::max(from[1], -kLargestStretch), 1 / (1 - kLargestStretch));
-  return from;
-}
-
 void CorrectionFit::fitSheet() {
   for (int step = 0; step <= kSteps; ++step) {
-    double error = 0;
-    for (std::size_t taxel = 0; taxel < sheet_sums_.size(); ++taxel)
-      sheet_sums_[taxel] = sumsAround(sheet_, taxel, error);
-    if (step < kSteps) sheet_ = sheetOf(all_);
+    if (step > 0) sheet_.solve(sheet_.total(all_), sheet_.centre);
+    sheet_.sums.assign(all_.size(), {});
+    around_sheet_.assign(readings_.stays.front().answers.size(), {sheet_.centre, sheet_.sums});
+    for (std::size_t taxel = 0; taxel < around_sheet_.size(); ++taxel) {
+      addTaxel(taxel, around_sheet_[taxel]);
+      for (std::size_t cycle = 0; cycle < all_.size(); ++cycle)
+        sheet_.sums[cycle].add(around_sheet_[taxel].sums[cycle]);
+    }
   }
 }
 
 // Starts from the sheet's change. A step that makes the error larger is not taken.
 void CorrectionFit::fitTaxel(std::size_t taxel) {
-  double best = 0;
-  sumsAround(sheet_, taxel, best);
+  const std::vector<Sums> none(all_.size());
+  Solution start{sheet_.centre, none};
+  double best = addTaxel(taxel, start);
   for (int step = 0; step < kSteps; ++step) {
-    Change next;
-    if (!alone(taxel, totalOf(taxel_sums_[taxel], all_), next)) return;
-    double error = 0;
-    CycleSums sums = sumsAround(next, taxel, error);
+    Solution next{{}, none};
+    if (!taxels_[taxel].solve(taxels_[taxel].total(all_), next.centre)) return;
+    const double error = addTaxel(taxel, next);
     if (!(error < best)) return;
     best = error;
-    taxels_[taxel] = next;
-    taxel_sums_[taxel] = std::move(sums);
+    taxels_[taxel] = std::move(next);
   }
 }
 
-CorrectionFit::CycleSums CorrectionFit::sumsAround(const Change& centre, std::size_t taxel,
-                                                   double& error) const {
-  const ReadingChange change = toReading(centre);
-  CycleSums result(readings_.cycles());
+double CorrectionFit::addTaxel(std::size_t taxel, Solution& around) const {
+  const ReadingChange change = toReading(around.centre);
+  double error = 0;
   for (std::size_t cycle = 0; cycle < readings_.cycles(); ++cycle) {
     const CycleReadings::Stay& stay = readings_.stayOf(cycle);
     const Error zero = zeroOf(stay, taxel, change, pivot_);
@@ -109,58 +117,26 @@ CorrectionFit::CycleSums CorrectionFit::sumsAround(const Change& centre, std::si
       const Error one = errorOf(reading, stay.answers[taxel], change, pivot_);
       const double value = one.value - zero.value;
       const Eigen::Vector2d slope = one.slope - zero.slope;
-      result[cycle].matrix += slope * slope.transpose();
-      result[cycle].right -= slope * value;
+      around.sums[cycle].matrix += slope * slope.transpose();
+      around.sums[cycle].right -= slope * value;
       error += value * value;
     }
   }
-  return result;
-}
-
-CorrectionFit::Sums CorrectionFit::totalOf(const CycleSums& sums, const Cycles& cycles) {
-  Sums total;
-  for (std::size_t cycle = 0; cycle < cycles.size(); ++cycle) {
-    if (!cycles[cycle]) continue;
-    total.matrix += sums[cycle].matrix;
-    total.right += sums[cycle].right;
-  }
-  return total;
-}
-
-CorrectionFit::Sums CorrectionFit::sheetTotal(const Cycles& cycles) const {
-  Sums whole;
-  for (const CycleSums& taxel : sheet_sums_) {
-    const Sums total = totalOf(taxel, cycles);
-    whole.matrix += total.matrix;
-    whole.right += total.right;
-  }
-  return whole;
-}
-
-CorrectionFit::Change CorrectionFit::sheetOf(const Cycles& cycles) const {
-  Change step;
-  return sheetTotal(cycles).solve(step) ? moved(sheet_, step) : sheet_;
-}
-
-bool CorrectionFit::alone(std::size_t taxel, const Sums& sums, Change& change) const {
-  Change step;
-  if (!sums.solve(step)) return false;
-  change = moved(taxels_[taxel], step);
-  return true;
+  return error;
 }
 
 // s^2 of a taxel; negative where it is not known.
-CorrectionFit::Change CorrectionFit::jackknifeVariance(std::size_t taxel, const Cycles& cycles,
+CorrectionFit::Change CorrectionFit::jackknifeVariance(const Solution& taxel, const Cycles& cycles,
                                                        const Change& whole) const {
-  const CycleSums& own = taxel_sums_[taxel];
-  const Sums all = totalOf(own, cycles);
+  const Sums all = taxel.total(cycles);
   Change square = Change::Zero();
   double number = 0;
   for (std::size_t cycle = 0; cycle < cycles.size(); ++cycle) {
     if (!cycles[cycle]) continue;
+    Sums rest = all;
+    rest.add(taxel.sums[cycle], -1);
     Change change;
-    if (!alone(taxel, {all.matrix - own[cycle].matrix, all.right - own[cycle].right}, change))
-      return {-1, -1};
+    if (!taxel.solve(rest, change)) return {-1, -1};
     square += (change - whole).cwiseAbs2();
     number += 1;
   }
@@ -174,8 +150,8 @@ std::vector<CorrectionFit::Change> CorrectionFit::shrunk(const Cycles& cycles, c
   Change between = Change::Zero(), within = Change::Zero();
   double number = 0;
   for (std::size_t taxel = 0; taxel < taxels_.size(); ++taxel) {
-    if (!alone(taxel, totalOf(taxel_sums_[taxel], cycles), own[taxel])) continue;
-    variance[taxel] = jackknifeVariance(taxel, cycles, own[taxel]);
+    if (!taxels_[taxel].solve(taxels_[taxel].total(cycles), own[taxel])) continue;
+    variance[taxel] = jackknifeVariance(taxels_[taxel], cycles, own[taxel]);
     if (variance[taxel][0] < 0) continue;
     between += (own[taxel] - sheet).cwiseAbs2();
     within += variance[taxel];
@@ -202,27 +178,29 @@ void CorrectionFit::addEffect(const Sums& sums, const Change& change, std::vecto
 }
 
 std::vector<double> CorrectionFit::sheetEffect(const Cycles& cycles) const {
+  Change sheet = sheet_.centre;  // where the cycles do not determine it
+  sheet_.solve(sheet_.total(cycles), sheet);
   std::vector<double> effect;
-  addEffect(sheetTotal(all_), sheetOf(cycles), effect);
+  addEffect(sheet_.total(all_), sheet, effect);
   return effect;
 }
 
 std::vector<double> CorrectionFit::taxelEffects(const Cycles& cycles) const {
-  const Change sheet = sheetOf(cycles);
+  Change sheet = sheet_.centre;
+  sheet_.solve(sheet_.total(cycles), sheet);
   std::vector<double> effects;
   for (std::size_t taxel = 0; taxel < taxels_.size(); ++taxel) {
     Change own = sheet;
-    alone(taxel, totalOf(taxel_sums_[taxel], cycles), own);
-    addEffect(totalOf(sheet_sums_[taxel], all_), own - sheet, effects);
+    taxels_[taxel].solve(taxels_[taxel].total(cycles), own);
+    addEffect(around_sheet_[taxel].total(all_), own - sheet, effects);
   }
   return effects;
 }
 
 std::vector<ReadingChange> CorrectionFit::fit(ChangeModel model, const Cycles& cycles) const {
   std::vector<ReadingChange> result(taxels_.size());
-  Change step;
-  if (model == ChangeModel::kNone || !sheetTotal(cycles).solve(step)) return result;
-  const Change sheet = moved(sheet_, step);
+  Change sheet;
+  if (model == ChangeModel::kNone || !sheet_.solve(sheet_.total(cycles), sheet)) return result;
   std::vector<Change> changes(taxels_.size(), sheet);
   if (model == ChangeModel::kTaxels) changes = shrunk(cycles, sheet);
   for (std::size_t taxel = 0; taxel < result.size(); ++taxel) result[taxel] = toReading(changes[taxel]);

@@ -1,10 +1,10 @@
 #include "regression/option_names.h"
 #include "report/budget_report.h"
 #include "report/calibration_report.h"
-#include "report/good_for.h"
 #include "report/history_report.h"
 #include "report/result_json.h"
 #include "report/session_report.h"
+#include "report/training_summary.h"
 
 namespace fsr::report {
 

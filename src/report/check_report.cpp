@@ -9,7 +9,6 @@
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "report/history_report.h"
 #include "report/result_json.h"
-#include "report/shape_report.h"
 #include "settings/file_kind.h"
 #include "settings/number_text.h"
 #include "settings/replace_file.h"
@@ -49,6 +48,78 @@ void addErrors(const check::MapErrors& errors, std::ostringstream& out) {
   for (const check::CheckedReadings& row : errors.surfaces) addRow(row, width, out);
   addRow(errors.whole, width, out);
   out << historyTable(errors.history);
+}
+
+const char* shapeVerdict(calibration::ShapeVerdict verdict) {
+  if (verdict == calibration::ShapeVerdict::kAgrees) return "agrees";
+  return verdict == calibration::ShapeVerdict::kDisagrees ? "disagrees" : "unknown";
+}
+
+std::string namesText(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + (name.empty() ? "?" : name);
+  return text.empty() ? "-" : text;
+}
+
+std::string declaredCurvature(const matrix::Surface& surface) {
+  if (surface.curvature.size() > 1) return "varies";
+  return fixedText(matrix::principalCurvature(surface.curvature.front()), 2);
+}
+
+// "8.0 +- 0.8", or "-" if the readings do not bound it.
+std::string changeText(const compensation::ShapeModel& model, const compensation::BendChange& change) {
+  if (!calibration::isKnown(model, change)) return "-";
+  return fixedText(change.change, 2) + " +- " + fixedText(change.deviation, 2);
+}
+
+std::string changeTable(const compensation::ShapeModel& model,
+                        const std::vector<calibration::CheckedMount>& mounts, int left) {
+  std::ostringstream out;
+  out << "\nChange of the bend along the sheet, from the first to the last column and row [1/m]; - = not "
+         "known\n"
+      << std::left << std::setw(left) << "mount" << std::setw(18) << "along a row" << std::setw(18)
+      << "along a column"
+      << "changes\n";
+  for (const auto& [mount, check] : mounts) {
+    if (check.estimate.taxels == 0) continue;  // no estimate was made
+    out << std::setw(left) << mount.name << std::setw(18) << changeText(model, check.change.along_x)
+        << std::setw(18) << changeText(model, check.change.along_y) << (check.changes ? "yes" : "no") << '\n';
+  }
+  out << calibration::fixedText(model) << "\n\n";
+  return out.str();
+}
+
+std::string shapeText(const compensation::ShapeModel& model,
+                      const std::vector<calibration::CheckedMount>& mounts) {
+  std::ostringstream out;
+  if (mounts.empty()) {
+    return "How the sheet lies cannot be told: no bag starts with a rest before the first load\n";
+  }
+  std::size_t width = 6;
+  for (const auto& mount : mounts) width = std::max(width, mount.mount.name.size() + 2);
+  const auto left = static_cast<int>(width);
+  out << "How the sheet rests before the first load: principal curvature [1/m]\n"
+      << std::left << std::setw(left) << "mount" << std::right << std::setw(9) << "declared" << std::setw(9)
+      << "rests as" << std::setw(9) << "low" << std::setw(9) << "high"
+      << "  " << std::left << std::setw(10) << "verdict"
+      << "surfaces of training that agree\n";
+  for (const auto& [mount, check] : mounts) {
+    const bool told = check.estimated;
+    const auto number = [&](double value) { out << std::setw(9) << (told ? fixedText(value, 2) : "-"); };
+    out << std::left << std::setw(left) << mount.name << std::right << std::setw(9)
+        << declaredCurvature(mount.surface);
+    number(check.estimate.curvature);
+    number(check.estimate.low);
+    number(check.estimate.high);
+    out << "  " << std::left << std::setw(10) << shapeVerdict(check.verdict) << namesText(check.possible)
+        << '\n';
+  }
+  out << changeTable(model, mounts, left);
+  for (const auto& [mount, check] : mounts) {
+    if (check.verdict != calibration::ShapeVerdict::kAgrees)
+      out << mount.name << ": " << check.sentence << '\n';
+  }
+  return out.str();
 }
 
 // "-5.0 to +1.2"; "-5.0" where all taxels have that.
@@ -173,8 +244,13 @@ void addJson(const check::CorrectionCheck& correction, Json& document) {
 
 std::string checkText(const check::CheckResult& result, const calibration::Calibration& calibration) {
   std::ostringstream out;
+  if (result.child) out << "Errors of the corrected calibration:\n";
   addErrors(result.map, out);
-  if (!result.at_rest.empty()) out << shapeText(calibration.shape, result.at_rest);
+  if (calibration.shape.present()) {
+    out << shapeText(calibration.shape, result.at_rest);
+  } else {
+    out << "How the sheet rests is not known: " << calibration.shape.missing << '\n';
+  }
   if (result.correction) addCorrection(*result.correction, out);
   for (const std::string& remark : result.map.remarks) out << "Note: " << remark << '\n';
   for (const std::string& sentence : result.map.not_shown) out << "Not shown: " << sentence << '\n';

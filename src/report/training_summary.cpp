@@ -4,6 +4,7 @@
 #include <iomanip>
 #include <sstream>
 
+#include "calibration/budget/new_mount_line.h"
 #include "report/budget_report.h"
 #include "report/calibration_report.h"
 #include "report/history_report.h"
@@ -96,6 +97,13 @@ std::string trainingDetails(const calibration::Calibration& calibration) {
       << temperatureText(calibration) << historyText(calibration) << learnedText(calibration);
   if (calibration.budget.present()) out << '\n' << budgetText(calibration.budget, calibration.layout);
   return out.str();
+}
+
+std::string goodForText(const calibration::Calibration& calibration) {
+  const std::string note = calibration::newMountNote(calibration.budget);
+  return "Good for: " + (note.empty() ? "not known, because scores were not computed; next: train on all the "
+                                        "bags without --no-scores"
+                                      : note);
 }
 
 }  // namespace fsr::report

@@ -135,10 +135,6 @@ std::string refusal(const Action& action) {
   return "";
 }
 
-std::string refusalOf(const Calibration& calibration, const Recording& recording) {
-  return refusal([&] { decide(calibration, {recording}); });
-}
-
 TEST(Check, CorrectsAPlantedGainAndOffset) {
   const CheckResult result = recheck(worn);
   ASSERT_EQ(result.verdict, Verdict::kCorrected) << said(result);
@@ -331,34 +327,27 @@ TEST(Check, TaresSessionsWhereTheCalibrationExpectsIt) {
 }
 
 TEST(Check, RefusesWhatDoesNotFitTheParent) {
-  const Recording good = changed(syntheticRecording(rig(2, false)), worn);
-  Calibration ours = parent();
-  ours.sensor.serial = "FSR-0001";
-  Recording other = good;
+  Recording other = syntheticRecording(rig(2, false)), surface = other, without = other;
   other.sensor.serial = "FSR-0002";
-  EXPECT_NE(
-      refusalOf(ours, other).find("serial number \"FSR-0002\", but calibration 0123456789ab was trained"),
-      std::string::npos);
-  Recording surface = good;
   surface.conditions[0].name = "cylinder_3cm";
   surface.conditions[0].curvature = {{33.3, 0, 0}};
-  EXPECT_NE(refusalOf(parent(), surface).find("recheck on one of flat, cylinder_7cm"), std::string::npos);
-  Recording without = good;
   without.pressure.clear();
-  EXPECT_NE(refusalOf(parent(), without).find("has no chamber_pressure"), std::string::npos);
-  SyntheticRig larger = rig(2, false);
+  SyntheticRig larger = rig(2, false), few = larger, low = larger;
   larger.size = {3, 3};
-  EXPECT_NE(refusalOf(parent(), syntheticRecording(larger)).find("but the calibration is for"),
-            std::string::npos);
-  SyntheticRig few = rig(2, false);
   few.cycles = 2;
-  EXPECT_NE(refusalOf(parent(), syntheticRecording(few)).find("but the bags have 2; record more cycles"),
-            std::string::npos);
-  SyntheticRig low = rig(2, false);
   low.peak = 200e3;
-  EXPECT_NE(refusalOf(parent(), syntheticRecording(low)).find("but the bags have 0; record more cycles"),
-            std::string::npos);
-  EXPECT_NE(refusal([] { decide(parent(), {}); }).find("there is no bag"), std::string::npos);
+  const std::vector<std::pair<std::vector<Recording>, std::string>> cases = {
+      {{other}, "serial number \"FSR-0002\", but calibration 0123456789ab was trained"},
+      {{surface}, "recheck on one of flat, cylinder_7cm"},
+      {{without}, "has no chamber_pressure"},
+      {{syntheticRecording(larger)}, "but the calibration is for"},
+      {{syntheticRecording(few)}, "but the bags have 2; record more cycles"},
+      {{syntheticRecording(low)}, "but the bags have 0; record more cycles"},
+      {{}, "there is no bag"}};
+  for (const auto& [recordings, sentence] : cases) {
+    const std::string said = refusal([&bags = recordings] { decide(parent(), bags); });
+    EXPECT_NE(said.find(sentence), std::string::npos) << said;
+  }
 }
 
 // A small cycle runs through another loop than those of the training, and a loading alone through half a
@@ -390,7 +379,7 @@ TEST(Check, RefusesTheChildOfAChild) {
   Calibration child = *first.child;
   child.id = "ba9876543210";
   EXPECT_EQ(
-      refusalOf(child, syntheticRecording(rig(2, false))),
+      refusal([&] { decide(child, {syntheticRecording(rig(2, false))}); }),
       "calibration ba9876543210 is itself a correction of 0123456789ab; correct that one again with the "
       "new bags, or train anew");
 }

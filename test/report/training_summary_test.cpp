@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "report/good_for.h"
-
 namespace fsr::report {
 namespace {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -38,6 +39,8 @@ struct FoundFile {
   std::string path;
   std::string shown;  // relative to the folder
   bool bag = false;
+  std::int64_t date_ns = 0;  // of a calibration
+  bool refused = false;
 };
 
 std::vector<FoundFile> filesIn(const std::string& folder) {
@@ -53,10 +56,9 @@ std::vector<FoundFile> filesIn(const std::string& folder) {
   if (error) throw InputError(folder + ": cannot be read: " + error.message());
   std::sort(files.begin(), files.end(),
             [](const FoundFile& a, const FoundFile& b) { return a.shown < b.shown; });
-  if (files.empty()) {
+  if (files.empty())
     throw InputError(folder +
                      ": has no bag (.bag) and no calibration file (.h5), also not in its subfolders");
-  }
   return files;
 }
 
@@ -67,32 +69,31 @@ struct First {
   Calibration calibration;
 };
 
-class History {
+// Reads the files of a folder by sheet.
+class Lives {
  public:
-  explicit History(const fsr::settings::CommandLine& line) : line_(line) {
+  explicit Lives(const fsr::settings::CommandLine& line) : how_(bagReadOptions(line)) {
     if (!line.has("first")) return;
     const std::string path = line.text("first", "");
     Calibration calibration = fsr::calibration::loadCalibration(path);
     const std::string sheet = check::sheetOf(calibration.sensor);
-    firsts_[sheet] = First{path, 0, std::move(calibration)};
-    chosen_ = sheet;
+    firsts_[sheet] = First{path, std::numeric_limits<std::int64_t>::min(), std::move(calibration)};
   }
 
-  void read(const std::vector<FoundFile>& files) {
+  void read(std::vector<FoundFile> files) {
     const ToolProgress progress = toolProgress();
     progress("looking for the first calibrations", 0);
-    findFirsts(files);
+    for (FoundFile& file : files) {
+      if (!file.bag) trying(file, [&] { compareWithFirst(files, file); });
+    }
     double done = 0;
-    for (const FoundFile& file : files) {
+    for (FoundFile& file : files) {
       progress("reading " + file.shown, done++ / static_cast<double>(files.size()));
-      if (refused_.count(file.path) == 0) trying(file, [&] { add(file, stateOf(file)); });
+      if (!file.refused) trying(file, [&] { add(file, stateOf(file)); });
     }
   }
 
-  std::vector<check::SheetLife> lives() const {
-    check::LifeOptions options;
-    options.surface = line_.text("surface", "");
-    options.level = line_.number("level", options.level, {1e-4, 0.2, ""});
+  std::vector<check::SheetLife> lives(const check::LifeOptions& options) const {
     std::vector<check::SheetLife> lives;
     for (const auto& [sheet, states] : states_) {
       const auto first = firsts_.find(sheet);
@@ -106,30 +107,25 @@ class History {
  private:
   // What cannot be read is remembered, and the others are read all the same.
   template <typename Use>
-  void trying(const FoundFile& file, const Use& use) {
+  void trying(FoundFile& file, const Use& use) {
     try {
       use();
     } catch (const std::exception& error) {
       std::string reason = fsr::settings::sentenceOf(error).what();
       if (reason.rfind(file.path + ": ", 0) == 0) reason.erase(0, file.path.size() + 2);
       skipped_.push_back({file.shown, reason});
-      refused_[file.path] = true;
+      file.refused = true;
     }
   }
 
-  // The earliest calibration of each sheet.
-  void findFirsts(const std::vector<FoundFile>& files) {
-    for (const FoundFile& file : files) {
-      if (file.bag) continue;
-      trying(file, [&] {
-        Calibration calibration = fsr::calibration::loadCalibration(file.path);
-        const std::string sheet = check::sheetOf(calibration.sensor);
-        const std::int64_t date = dates_[file.path] = dateOf(calibration, files);
-        const auto known = firsts_.find(sheet);
-        if (sheet == chosen_ || (known != firsts_.end() && known->second.date_ns <= date)) return;
-        firsts_[sheet] = First{file.shown, date, std::move(calibration)};
-      });
-    }
+  // Keeps the earliest calibration of each sheet.
+  void compareWithFirst(const std::vector<FoundFile>& files, FoundFile& file) {
+    Calibration calibration = fsr::calibration::loadCalibration(file.path);
+    file.date_ns = dateOf(calibration, files);
+    const std::string sheet = check::sheetOf(calibration.sensor);
+    const auto known = firsts_.find(sheet);
+    if (known == firsts_.end() || known->second.date_ns > file.date_ns)
+      firsts_[sheet] = First{file.shown, file.date_ns, std::move(calibration)};
   }
 
   // When the first bag of the folder from which it was trained was recorded; where none is in the folder, the
@@ -151,29 +147,28 @@ class History {
     const auto [place, fresh] = identities_.try_emplace(path);
     if (!fresh) return place->second;
     try {
-      const fsr::dataset::Recording recording = readBag(path, bagReadOptions(line_));
+      const fsr::dataset::Recording recording = readBag(path, how_);
       place->second = {recording.sha256, recording.start_ns};
     } catch (const std::exception&) {
     }
     return place->second;
   }
 
-  const Calibration* firstOf(const std::string& sheet) const {
-    const auto found = firsts_.find(sheet);
-    return found == firsts_.end() ? nullptr : &found->second.calibration;
-  }
-
   check::SheetState stateOf(const FoundFile& file) {
+    const auto firstOf = [&](const fsr::dataset::SensorIdentity& sensor) {
+      const auto found = firsts_.find(check::sheetOf(sensor));
+      return found == firsts_.end() ? nullptr : &found->second.calibration;
+    };
     if (!file.bag) {
       const Calibration calibration = fsr::calibration::loadCalibration(file.path);
-      check::SheetState state = check::stateOf(calibration, firstOf(check::sheetOf(calibration.sensor)));
-      state.date_ns = dates_.at(file.path);
+      check::SheetState state = check::stateOf(calibration, firstOf(calibration.sensor));
+      state.date_ns = file.date_ns;
       return state;
     }
-    const fsr::dataset::Recording recording = readBag(file.path, bagReadOptions(line_));
-    const auto [twin, fresh] = hashes_.emplace(recording.sha256, file.shown);
+    const fsr::dataset::Recording recording = readBag(file.path, how_);
+    const auto [twin, fresh] = shown_.emplace(recording.sha256, file.shown);
     if (!fresh) throw InputError("it is a copy of " + twin->second + ", which is counted once");
-    return check::stateOf(recording, firstOf(check::sheetOf(recording.sensor)));
+    return check::stateOf(recording, firstOf(recording.sensor));
   }
 
   void add(const FoundFile& file, check::SheetState state) {
@@ -186,14 +181,11 @@ class History {
     states.push_back(std::move(state));
   }
 
-  const fsr::settings::CommandLine& line_;
-  std::optional<std::string> chosen_;                             // sheet of --first
-  std::map<std::string, First> firsts_;                           // by sheet
-  std::map<std::string, std::vector<check::SheetState>> states_;  // by sheet
-  std::map<std::string, std::int64_t> dates_;                     // of each calibration, by path [ns]
+  BagReadOptions how_;
+  std::map<std::string, First> firsts_;                                     // by sheet
+  std::map<std::string, std::vector<check::SheetState>> states_;            // by sheet
   std::map<std::string, std::pair<std::string, std::int64_t>> identities_;  // of bags, by path
-  std::map<std::string, std::string> hashes_;                               // of each bag: its name
-  std::map<std::string, bool> refused_;                                     // by path
+  std::map<std::string, std::string> shown_;                                // of bags, by SHA-256
   std::vector<fsr::report::SkippedFile> skipped_;
 };
 
@@ -211,44 +203,46 @@ fs::path outputFolder(const fsr::settings::CommandLine& line) {
 }
 
 // Returns false if the figures are missing.
-bool write(const fs::path& folder, const History& history, const std::vector<check::SheetLife>& lives,
-           bool figures, std::ostream& out) {
-  fsr::settings::replaceFile((folder / "life.csv").string(), fsr::report::lifeCsv(lives));
-  fsr::settings::replaceFile((folder / "life.json").string(),
-                             fsr::report::lifeJson(lives, history.skipped()));
-  out << "Written to " << folder.string() << '\n';
-  if (!figures) return true;
+bool drawn(const fs::path& folder) {
   try {
     drawFigures("life.py", {folder.string()});
+    return true;
   } catch (const InputError& error) {
     std::cerr << "check_calibration: the figures are missing: " << error.what() << std::endl;
     return false;
   }
-  return true;
 }
 
 }  // namespace
 
 int showLives(const fsr::settings::CommandLine& line, std::ostream& out) {
   if (line.files().size() != 1) throw InputError(line.files()[1] + ": give one folder");
-  line.number("level", 0.01, {1e-4, 0.2, ""});  // before the bags are read
+  check::LifeOptions options;
+  options.surface = line.text("surface", "");
+  options.level = line.number("level", options.level, {1e-4, 0.2, ""});
   const std::vector<FoundFile> files = filesIn(line.files().front());
-  std::optional<fs::path> folder;
+  fs::path folder;
   if (line.has("output")) folder = outputFolder(line);
-  History history(line);
-  history.read(files);
-  const std::vector<check::SheetLife> lives = history.lives();
+  Lives reading(line);
+  reading.read(files);
+  const std::vector<fsr::report::SkippedFile>& skipped = reading.skipped();
+  const std::vector<check::SheetLife> lives = reading.lives(options);
   if (lives.empty()) {
-    const fsr::report::SkippedFile& skipped = history.skipped().front();
-    throw InputError(line.files().front() + ": none of its files could be used: " + skipped.file + ": " +
-                     skipped.reason);
+    throw InputError(line.files().front() + ": none of its files could be used: " + skipped.front().file +
+                     ": " + skipped.front().reason);
   }
   for (const check::SheetLife& life : lives) out << fsr::report::lifeText(life) << '\n';
-  for (const fsr::report::SkippedFile& skipped : history.skipped())
-    out << "Not used: " << skipped.file << ": " << skipped.reason << '\n';
-  const bool drawn = !folder || write(*folder, history, lives, !line.has("no-figures"), out);
-  if (!history.skipped().empty()) return kSkipped;
-  return drawn ? 0 : kFiguresMissing;
+  for (const fsr::report::SkippedFile& file : skipped)
+    out << "Not used: " << file.file << ": " << file.reason << '\n';
+  bool complete = true;
+  if (!folder.empty()) {
+    fsr::settings::replaceFile((folder / "life.csv").string(), fsr::report::lifeCsv(lives));
+    fsr::settings::replaceFile((folder / "life.json").string(), fsr::report::lifeJson(lives, skipped));
+    out << "Written to " << folder.string() << '\n';
+    complete = line.has("no-figures") || drawn(folder);
+  }
+  if (!skipped.empty()) return kSkipped;
+  return complete ? 0 : kFiguresMissing;
 }
 
 }  // namespace fsr_ros

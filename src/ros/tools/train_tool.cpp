@@ -14,7 +14,6 @@
 #include "regression/regressors.h"
 #include "report/budget_report.h"
 #include "report/calibration_report.h"
-#include "report/good_for.h"
 #include "report/training_summary.h"
 #include "ros/bags/bag_topics.h"
 #include "ros/bags/bag_walk.h"
