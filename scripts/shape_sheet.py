@@ -50,8 +50,8 @@ class Sheet(SimulatedRig):
         return calibration
 
     def check(self, calibration, bags):
-        """Rows of the tables that check_bag prints: estimate, interval, verdict, surfaces that agree; changes along x and y."""
-        text = self.run("check_bag", "--calibration", calibration, *bags)
+        """Rows of the tables that check_calibration prints: estimate, interval, verdict, surfaces that agree; changes along x and y."""
+        text = self.run("check_calibration", calibration, *bags)
         table = text[text.index("How the sheet rests"):].splitlines()[2:]
         rows = {}
         for line in table[:len(bags)]:

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Draws the life of each sheet.
 
-DIR holds life.json, which the tool `calibration_history` wrote. This script adds a figure for each sheet, life_SHEET.png and
+DIR holds life.json, which the tool `check_calibration` wrote. This script adds a figure for each sheet, life_SHEET.png and
 life_SHEET.pdf. All numbers come from the tool; the script computes none.
 """
 import argparse

@@ -4,6 +4,7 @@
 
 #include "dataset/conditioning.h"
 #include "dataset/mounts.h"
+#include "fsr_pressure_map/settings/input_error.h"
 
 namespace fsr::calibration {
 
@@ -19,6 +20,25 @@ std::string now() {
 }
 
 }  // namespace
+
+void requireMatrix(const Calibration& calibration, const dataset::Recording& recording) {
+  if (recording.layout.size == calibration.layout.size &&
+      recording.full_scale == calibration.tables.full_scale)
+    return;
+  throw settings::InputError(
+      recording.name + ": has " + matrix::sizeText(recording.layout.size) + " taxels up to " +
+      std::to_string(recording.full_scale) + " counts, but the calibration is for " +
+      matrix::sizeText(calibration.layout.size) + " up to " + std::to_string(calibration.tables.full_scale));
+}
+
+void requireFit(const Calibration& calibration, const dataset::Recording& recording) {
+  if (recording.pressure.empty()) {
+    throw settings::InputError(recording.name +
+                               ": has no chamber_pressure, so there is no reference for the maps; "
+                               "without a chamber use check_bag --use socket");
+  }
+  requireMatrix(calibration, recording);
+}
 
 Provenance provenanceOf(const std::vector<dataset::Recording>& recordings,
                         const CalibrationOptions& options) {

@@ -14,6 +14,13 @@ namespace fsr::calibration {
 /// validate() of a problem of these parts, for recordings that are not copied into one.
 void validate(const std::vector<dataset::Recording>& recordings, const CalibrationOptions& options);
 
+/// Throws InputError if the recording has another matrix or converter than the calibration.
+void requireMatrix(const Calibration& calibration, const dataset::Recording& recording);
+
+/// Throws InputError if the recording has no chamber pressure, or another matrix or converter than the
+/// calibration.
+void requireFit(const Calibration& calibration, const dataset::Recording& recording);
+
 // Information that is combined from all recordings of one matrix.
 
 Provenance provenanceOf(const std::vector<dataset::Recording>& recordings, const CalibrationOptions& options);

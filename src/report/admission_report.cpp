@@ -83,13 +83,13 @@ std::string verdict(const discrepancy::Admission& admission, const std::vector<s
   return "Fit for training; not for discrepancy, because " + admission.discrepancy + "." + look;
 }
 
-std::string restText(const std::string& name, const std::optional<calibration::SocketRest>& rest) {
+std::string restText(const std::string& name, const std::optional<check::SocketRest>& rest) {
   return "Rest " + name + ": " +
          (rest ? settings::cellText(rest->from, 1) + " to " + settings::cellText(rest->to, 1) + " s\n"
                : "none recorded\n");
 }
 
-std::string changeOfRest(const calibration::SocketCheck& check) {
+std::string changeOfRest(const check::SocketCheck& check) {
   if (check.change.empty()) return "";
   const std::string pressure =
       std::isnan(check.median_pressure_change)
@@ -116,7 +116,7 @@ std::string admissionText(const discrepancy::Admission& admission) {
          linesOf(problems, "Problem: ") + verdict(admission, problems) + '\n';
 }
 
-std::string socketText(const calibration::SocketCheck& check) {
+std::string socketText(const check::SocketCheck& check) {
   const std::string longest = check.longest.seconds > 0
                                   ? ", from second " + settings::cellText(check.longest.from, 0) +
                                         ", at (row, column) " + places({check.longest.taxel}, check.layout)

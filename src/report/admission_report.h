@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "calibration/socket_check.h"
+#include "check/socket_check.h"
 #include "discrepancy/samples/admission.h"
 
 namespace fsr::report {
@@ -15,6 +15,6 @@ std::string admissionText(const discrepancy::Admission& admission);
 /// The check of a recording without reference, and the verdict as the last line: "Readings are usable; no
 /// reference: accuracy not assessed." or "Look again, because A; and 1 more; no reference: accuracy not
 /// assessed."
-std::string socketText(const calibration::SocketCheck& check);
+std::string socketText(const check::SocketCheck& check);
 
 }  // namespace fsr::report

@@ -1,7 +1,6 @@
 #include "regression/regressors.h"
 #include "report/budget_report.h"
 #include "report/calibration_report.h"
-#include "report/good_for.h"
 #include "report/history_report.h"
 #include "report/members_json.h"
 

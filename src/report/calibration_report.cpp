@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calibration/budget/new_mount_line.h"
 #include "report/budget_report.h"
 #include "report/history_report.h"
 #include "report/text_table.h"
@@ -206,6 +207,13 @@ std::string trainingSummary(const calibration::Calibration& calibration) {
   text += "Combined standard uncertainty:";
   for (const double value : calibration.budget.combined) text += ' ' + inKilopascals(value);
   return text + " kPa at 10, 50 and 90 % of the trained pressures\n";
+}
+
+std::string goodForText(const calibration::Calibration& calibration) {
+  const std::string note = calibration::newMountNote(calibration.budget);
+  return "Good for: " + (note.empty() ? "not known, because scores were not computed; next: train on all the "
+                                        "bags without --no-scores"
+                                      : note);
 }
 
 std::string trainingDetails(const calibration::Calibration& calibration) {

@@ -9,7 +9,6 @@
 #include <fstream>
 #include <random>
 
-#include "calibration/calibration_check.h"
 #include "calibration/history_training.h"
 #include "calibration/merge.h"
 #include "fsr_pressure_map/calibration/calibration.h"
@@ -17,6 +16,7 @@
 #include "fsr_pressure_map/calibration/calibrator.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "support/file_complaint.h"
+#include "support/live_rmse.h"
 #include "support/memory_rig.h"
 
 namespace fsr::calibration {
@@ -48,7 +48,7 @@ dataset::Recording another(MemoryRig rig) {
 }
 
 double errorOn(const Calibration& calibration, const dataset::Recording& recording) {
-  return checkCalibration(calibration, {recording}).whole.rmse;
+  return test_support::liveRmse(calibration, {recording});
 }
 
 TEST(HistoryTraining, TakesOutALoopOfAnotherFormulaOnAnotherProtocol) {
@@ -129,51 +129,6 @@ TEST(HistoryTraining, GivesTheSameOnAnyNumberOfThreads) {
   EXPECT_EQ(one.history.play_weight, three.history.play_weight);
   EXPECT_EQ(one.history.correction, three.history.correction);
   EXPECT_EQ(one.history.loading_deviation, three.history.loading_deviation);
-}
-
-// train --check: static beside history, in the live map.
-TEST(HistoryCheck, StatesPartsAndWhatWasNotSettled) {
-  const MemoryRig rig = rigWith(0.08, 0);
-  const Calibration calibration = trained(rig);
-  const CalibrationCheck check = checkCalibration(calibration, {another(rig)});
-  const auto part = [&](const std::string& name) {
-    for (const HistoryScore::Part& own : check.history)
-      if (own.name.rfind(name, 0) == 0) return own;
-    ADD_FAILURE() << "no part " << name;
-    return HistoryScore::Part{};
-  };
-  EXPECT_DOUBLE_EQ(part("all readings").rmse, check.whole.rmse);
-  const HistoryScore::Part start = part("not settled: static answer");
-  EXPECT_EQ(part("loading").readings + part("unloading").readings + start.readings,
-            part("all readings").readings);
-  EXPECT_GT(start.readings, 0u);
-  EXPECT_DOUBLE_EQ(start.rmse, start.static_rmse);
-  EXPECT_LT(part("unloading").rmse, 0.5 * part("unloading").static_rmse);
-  EXPECT_LT(part("ramps of 35").rmse, 10e3);
-  EXPECT_TRUE(checkCalibration(trained(rig, {false, HistoryFamily::kNone}), {another(rig)}).history.empty());
-}
-
-// A bag that begins under load and ends before the memory of the sheet is known.
-TEST(HistoryCheck, SaysWhichPromiseItCannotSee) {
-  const MemoryRig rig = rigWith(0.08, 0);
-  const Calibration calibration = trained(rig);
-  EXPECT_TRUE(checkCalibration(calibration, {another(rig)}).not_shown.empty());
-  dataset::Recording held = another(rig);
-  const std::size_t scans = 40;  // from 6 s on: 120 to 200 kPa of 600
-  held.time.assign(held.time.begin() + 60, held.time.begin() + 60 + scans);
-  held.pressure.assign(held.pressure.begin() + 60, held.pressure.begin() + 60 + scans);
-  held.condition.assign(held.condition.begin() + 60, held.condition.begin() + 60 + scans);
-  const auto first = held.counts.begin() + 60 * 3;
-  const std::vector<std::uint16_t> counts(first, first + 3 * static_cast<std::ptrdiff_t>(scans));
-  held.counts = counts;
-  const CalibrationCheck check = checkCalibration(calibration, {held});
-  ASSERT_EQ(check.not_shown.size(), 2u);
-  EXPECT_EQ(check.whole.not_settled, 1);
-  EXPECT_EQ(check.not_shown[0].find("the sheet's memory: 100.0 % of the readings were not settled and are "
-                                    "static answers, so that the RMSE that training found with it"),
-            0u)
-      << check.not_shown[0];
-  EXPECT_EQ(check.not_shown[1].find("pressures of "), 0u) << check.not_shown[1];
 }
 
 class HistoryFile : public testing::Test {

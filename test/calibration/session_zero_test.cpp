@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdio>
 
-#include "calibration/calibration_check.h"
 #include "calibration/merge.h"
 #include "calibration/session/session_rests.h"
 #include "compensation/training_statistics.h"
@@ -15,6 +14,7 @@
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "support/file_complaint.h"
+#include "support/live_rmse.h"
 #include "support/memory_rig.h"
 
 namespace fsr::calibration {
@@ -170,26 +170,10 @@ TEST(SessionZero, LeavesTheMemoryToTheHistory) {
   const Calibration zero = trained(sessions(5, kOffset, rig), ZeroChoice::kSession);
   ASSERT_TRUE(both.history.present()) << both.scores.history.choice;
   const auto error = [&](const Calibration& calibration) {
-    return checkCalibration(calibration, {memorySession(6, kOffset, rig)}).whole.rmse;
+    return test_support::liveRmse(calibration, {memorySession(6, kOffset, rig)});
   };
   EXPECT_LT(error(both), 0.85 * error(history));
   EXPECT_LT(error(both), 0.6 * error(zero));
-}
-
-TEST(SessionZeroCheck, TakesTheTareAtTheStart) {
-  const Calibration calibration = trained(sessions(7, kOffset));
-  const CalibrationCheck check = checkCalibration(calibration, {memorySession(8, kOffset)});
-  EXPECT_LT(check.whole.rmse, 0.3 * check.rmse_without_tare);
-  ASSERT_FALSE(check.remarks.empty());
-  EXPECT_EQ(check.remarks[0].find("each session is checked with a tare at its start, as the calibration "
-                                  "expects; without it the RMSE is "),
-            0u)
-      << check.remarks[0];
-  const CalibrationCheck blind = checkCalibration(calibration, {withoutItsRest(memorySession(8, kOffset))});
-  EXPECT_DOUBLE_EQ(blind.whole.rmse, blind.rmse_without_tare);
-  EXPECT_EQ(blind.remarks[1].find("session_8.bag, flat: does not start with 2 s at rest"), 0u);
-  const CalibrationCheck none = checkCalibration(trained(sessions(3, 0)), {memorySession(8, 0)});
-  EXPECT_TRUE(std::isnan(none.rmse_without_tare));
 }
 
 class SessionZeroFile : public testing::Test {

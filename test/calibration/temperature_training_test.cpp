@@ -10,7 +10,6 @@
 #include <functional>
 #include <tuple>
 
-#include "calibration/calibration_check.h"
 #include "calibration/merge.h"
 #include "fsr_pressure_map/calibration/calibration.h"
 #include "fsr_pressure_map/calibration/calibration_file.h"
@@ -19,6 +18,7 @@
 #include "fsr_pressure_map/simulation/simulate.h"
 #include "simulation/settings_text.h"
 #include "support/file_complaint.h"
+#include "support/live_rmse.h"
 #include "support/simulated_rig.h"
 
 namespace fsr::calibration {
@@ -96,7 +96,7 @@ Recordings another(Rig rig) {
 }
 
 double errorOn(const Calibration& calibration, const Recordings& recordings) {
-  return checkCalibration(calibration, recordings).whole.rmse;
+  return test_support::liveRmse(calibration, recordings);
 }
 
 // s = -0.0036 / K of the conductance at 23 degree Celsius is -0.35 % a kelvin of the pressure at the 25 of

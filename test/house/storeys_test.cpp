@@ -22,7 +22,7 @@ const std::map<std::string, int> kStorey = {
     {"settings", 0},     {"hdf5", 1},       {"matrix", 1},      {"statistics", 1}, {"rheology", 1},
     {"regression", 2},   {"dataset", 2},    {"map", 2},         {"protocol", 2},   {"mesh", 2},
     {"compensation", 3}, {"simulation", 3}, {"health", 3},      {"view", 3},       {"calibration", 4},
-    {"emulator", 4},     {"study", 5},      {"discrepancy", 5}, {"life", 5},       {"report", 6},
+    {"emulator", 4},     {"study", 5},      {"discrepancy", 5}, {"check", 5},      {"report", 6},
     {"exports", 6},      {"session", 7},    {"ros", 8},         {"nodes", 9},      {"tools", 9},
 };
 

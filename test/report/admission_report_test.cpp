@@ -5,12 +5,12 @@
 namespace fsr::report {
 namespace {
 
-calibration::SocketCheck example() {
-  calibration::SocketCheck check;
+check::SocketCheck example() {
+  check::SocketCheck check;
   check.name = "socket.bag";
   check.layout.size = {2, 2};
-  check.before = calibration::SocketRest{0.5, 9.5, {}, {}};
-  check.after = calibration::SocketRest{71, 79, {}, {}};
+  check.before = check::SocketRest{0.5, 9.5, {}};
+  check.after = check::SocketRest{71, 79, {}};
   check.change = {0, 0.01, -0.03, 0};
   check.worst = 2;
   check.changed = 1;
@@ -40,7 +40,7 @@ TEST(SocketText, ReportsTheCheckOfARecordingWithoutReference) {
 }
 
 TEST(SocketText, EndsWithTheFirstReasonToLookAgain) {
-  calibration::SocketCheck check = example();
+  check::SocketCheck check = example();
   check.after.reset();
   check.change.clear();
   check.reasons = {"no rest was recorded after", "4 % of the readings are at full scale"};

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "report/good_for.h"
-
 namespace fsr::report {
 namespace {
 
@@ -49,20 +47,6 @@ TEST(TrainingSummary, HasAllInTheDetails) {
 
 TEST(GoodFor, SaysThatWithoutScoresNothingIsKnown) {
   EXPECT_EQ(goodForText(calibration::Calibration{}).find("Good for: not known, because scores were not"), 0u);
-}
-
-TEST(GoodFor, OfACheckNamesTheWorstBag) {
-  calibration::CalibrationCheck check;
-  check.still_good = true;
-  check.range = {0, 620e3};
-  check.within = {6.2e3, 15.5e3};
-  check.bags.resize(2);
-  check.bags[0].name = "a.bag", check.bags[0].rmse = 5e3;
-  check.bags[1].name = "b.bag", check.bags[1].rmse = 9e3;
-  EXPECT_EQ(
-      goodForText(check),
-      "Good for: 68 % of the readings of these bags err by at most 6.2 kPa (1.0 % of the range) and 95 % "
-      "by at most 15.5 kPa (2.5 % of the range); worst bag: b.bag, RMSE 9.0 kPa; next: use it");
 }
 
 }  // namespace

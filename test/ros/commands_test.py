@@ -35,7 +35,7 @@ REFUSED = 2     # exit status of wrong usage, of tools and of ROS's programs
 
 STARTS = re.compile(r"(ros\w+|scripts/\S+|[.]ci/\S+|(?:out|test|/usr)/\S+|sudo|mkdir|tar|gcc|sha256sum|export|[.](?= \w)|columns=\S+) ?(?![=:(])")
 IN_TEXT = re.compile(r"`((?:rosservice call|rosparam|roslaunch|scripts/\w+) [^`]*)`")
-BARE_TOOL = re.compile(r"(train|check_bag|discrepancy|simulate|study|export|scrub|csv_to_bag|plan_session|day_report) .*(--|[.]bag)")
+BARE_TOOL = re.compile(r"(train|check_bag|check_calibration|discrepancy|simulate|study|export|scrub|csv_to_bag|plan_session|day_report) .*(--|[.]bag)")
 
 # Beginning of a command -> why it is not run here. The options of the package's own scripts are looked up in their --help.
 NOT_RUN = {

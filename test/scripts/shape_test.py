@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Tests of scripts/measure_shape and measure_shape_limits, and of check_bag --calibration on a small rig.
+"""Tests of scripts/measure_shape and measure_shape_limits, and of check_calibration on a small rig.
 
 shape_test.py PROGRAMS: the folder of the tools. Everything runs in a shell without any environment.
 """
@@ -86,7 +86,7 @@ class CheckBag(unittest.TestCase):
         return done.stdout
 
     def test_prints_the_table(self):
-        said = self.type("check_bag --calibration sheet.h5 rig/13_flat.bag rig/16_cylinder_5cm.bag")
+        said = self.type("check_calibration sheet.h5 rig/13_flat.bag rig/16_cylinder_5cm.bag")
         self.assertIn("How the sheet rests before the first load: principal curvature [1/m]\n", said)
         self.assertRegex(said, r"(?m)^13_flat\.bag, flat, mount 13 +0\.00 .* agrees +flat")
         self.assertRegex(said, r"(?m)^16_cylinder_5cm\.bag, cylinder_5cm, mount 16 +20\.00 .* agrees .*cylinder_5cm")
@@ -101,7 +101,7 @@ class CheckBag(unittest.TestCase):
             del rig["effects"][effect]
         (folder / "wrong.yaml").write_text(yaml.safe_dump(rig, sort_keys=False))
         self.type("simulate --simulation wrong.yaml --seed 21 --output wrong")
-        said = self.type("check_bag --calibration sheet.h5 wrong/16_cylinder_5cm.bag")
+        said = self.type("check_calibration sheet.h5 wrong/16_cylinder_5cm.bag")
         self.assertRegex(said, r"(?m)^16_cylinder_5cm\.bag, cylinder_5cm, mount 16 +20\.00 .* disagrees +flat(, cylinder_20cm)?$")
         self.assertRegex(said, r"(?m)^16_cylinder_5cm\.bag, cylinder_5cm, mount 16: the sheet rests as on .*, "
                                r"but the surface file says cylinder_5cm \(5\.0 cm\)$")

@@ -95,7 +95,7 @@ class Lines {
             newCurvature(),
             history(),
             notAssessed("another sheet", "the calibration is of one sheet"),
-            notAssessed("age of the sheet", "drift and wear after training; train --check on new cycles"),
+            notAssessed("age of the sheet", "drift and wear after training; check_calibration on new cycles"),
             notAssessed("in a socket", "shear, compliance, humidity")};
   }
 

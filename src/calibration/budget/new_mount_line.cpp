@@ -33,7 +33,7 @@ std::string memoryText(const Calibration& calibration) {
 std::string nextStep(const Calibration& calibration) {
   const std::vector<std::string>& thin = calibration.coverage.thin;
   if (!thin.empty()) return "record what the bags lack: " + thin.front();
-  return "use it, and check it on a new mount with train --check";
+  return "use it, and check it on a new mount with check_calibration";
 }
 
 std::string mountsNote(const Calibration& calibration, const NewMountErrors& errors) {

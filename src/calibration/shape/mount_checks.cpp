@@ -4,8 +4,8 @@
 #include <numeric>
 #include <optional>
 
-#include "calibration/calibration_check.h"
 #include "calibration/shape/learn_from_mounts.h"
+#include "calibration/sources.h"
 #include "compensation/shape/read_shape.h"
 #include "matrix/for_each_taxel.h"
 

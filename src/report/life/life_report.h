@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "life/sheet_life.h"
+#include "check/sheet_life.h"
 
 namespace fsr::report {
 
@@ -14,12 +14,12 @@ struct SkippedFile {
 };
 
 /// The life of one sheet: a table by date, what changed suddenly, what could not be tested, and the rule.
-std::string lifeText(const life::SheetLife& life);
+std::string lifeText(const check::SheetLife& life);
 
 /// All sheets as JSON. Pressures in Pa, readings in counts; NaN is null.
-std::string lifeJson(const std::vector<life::SheetLife>& lives, const std::vector<SkippedFile>& skipped);
+std::string lifeJson(const std::vector<check::SheetLife>& lives, const std::vector<SkippedFile>& skipped);
 
 /// All sheets as a table, one line for each date and source.
-std::string lifeCsv(const std::vector<life::SheetLife>& lives);
+std::string lifeCsv(const std::vector<check::SheetLife>& lives);
 
 }  // namespace fsr::report

@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "calibration/budget/deviation_text.h"
-#include "calibration/correction/corrected_calibration.h"
+#include "check/check.h"
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "fsr_pressure_map/settings/input_error.h"
 
@@ -62,7 +62,7 @@ std::string correctionText(const fsr_pressure_map::CalibrationInfo& info) {
   fsr::calibration::Correction correction;
   correction.parent = info.parent;
   correction.date = info.corrected;
-  return fsr::calibration::correctionText(correction);
+  return fsr::check::correctionText(correction);
 }
 
 std::string describe(const LoadedCalibration& loaded) {

@@ -8,15 +8,11 @@
 #include <filesystem>
 #include <sstream>
 
-#include "calibration/correction/corrected_calibration.h"
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "fsr_pressure_map/ros/bag_reader.h"
 #include "fsr_pressure_map/settings/input_error.h"
-#include "report/recheck_report.h"
 #include "ros/bags/resource_path.h"
-#include "settings/file_kind.h"
 #include "settings/number_text.h"
-#include "settings/replace_file.h"
 
 namespace fsr_ros {
 
@@ -58,20 +54,20 @@ Rechecker::Rechecker(const ros::NodeHandle& handle, const ros::NodeHandle& priva
   const Parameters parameters(private_handle);
   std::string path = resolveLaunchPath(parameters.text("calibration", ""));
   if (path.empty()) path = runningCalibration(handle, parameters);
-  output_ = resolveLaunchPath(parameters.text("output", ""));
-  if (output_.empty()) output_ = withoutExtension(path) + "_corrected.h5";
-  report_ = resolveLaunchPath(parameters.text("report", ""));
+  outputs_.calibration = resolveLaunchPath(parameters.text("output", ""));
+  if (outputs_.calibration.empty()) outputs_.calibration = withoutExtension(path) + "_corrected.h5";
+  outputs_.report = resolveLaunchPath(parameters.text("report", ""));
   std::istringstream bags(parameters.text("bags", ""));
   for (std::string bag; bags >> bag;) bags_.push_back(resolveLaunchPath(bag));
   const double ambient = parameters.number("ambient_pressure", -1, {-1, 120e3, "Pa"});
   if (ambient >= 0) ambient_ = ambient;
-  const double least = static_cast<double>(fsr::calibration::kLeastCycles);
+  const double least = static_cast<double>(fsr::check::kLeastCycles);
   wanted_ = static_cast<std::size_t>(parameters.integer("cycles", 5, {least, 1000, ""}));
+  asked_.correct = true;
   asked_.same_mount = parameters.flag("same_mount", false);
   parent_ = fsr::calibration::loadCalibration(path);
-  fsr::calibration::requireTrained(parent_);
-  fsr::settings::requireReplaceable(output_, fsr::settings::file_kind::kCalibration);
-  if (!report_.empty()) fsr::settings::requireReplaceable(report_, fsr::settings::file_kind::kJson);
+  fsr::check::requireTrained(parent_);
+  fsr::report::requireCheckOutputs(outputs_);
   ROS_INFO_STREAM("calibration " << parent_.id << " of " << path << " is rechecked");
   if (bags_.empty()) startRecording(private_handle);
 }
@@ -104,9 +100,9 @@ void Rechecker::startRecording(const ros::NodeHandle& private_handle) {
 
 void Rechecker::countCycles() {
   if (pressure_.empty()) return;
-  const double least = fsr::calibration::leastCycleSpan(parent_);
+  const double least = fsr::check::leastCycleSpan(parent_);
   const std::size_t before = cycles_;
-  cycles_ = fsr::calibration::countCycles(pressure_, least, running_);
+  cycles_ = fsr::check::countCycles(pressure_, least, running_);
   const bool moved = std::abs(pressure_.back() - still_) > kStillShare * least;
   if (moved || cycles_ != before) changed_ = ros::WallTime::now();
   if (moved) still_ = pressure_.back();
@@ -143,25 +139,18 @@ void Rechecker::judge(std::ostream& out) {
   if (handle_.getNamespace() != "/") options.topics = handle_.getNamespace();
   std::vector<fsr::dataset::Recording> recordings;
   for (const std::string& bag : bags_) recordings.push_back(readBag(bag, options));
-  const fsr::calibration::Recheck recheck = fsr::calibration::recheckCalibration(parent_, recordings, asked_);
-  out << fsr::report::recheckText(recheck);
-  std::string child;
-  if (recheck.child) {
-    child = fsr::calibration::saveCalibration(*recheck.child, output_);
-    out << "Calibration " << child << " (" << fsr::calibration::correctionText(recheck.child->correction)
-        << ") written to " << output_ << "\nUse it: rosservice call "
-        << handle_.resolveName("calibration/load_calibration") << " " << output_ << '\n';
+  const fsr::check::CheckResult result = fsr::check::check(parent_, recordings, asked_);
+  out << fsr::report::checkText(result, parent_) << fsr::report::writeCheck(result, parent_.id, outputs_);
+  if (result.child) {
+    out << "Use it: rosservice call " << handle_.resolveName("calibration/load_calibration") << " "
+        << outputs_.calibration << '\n';
   }
-  if (recheck.verdict == fsr::calibration::RecheckVerdict::kCannotTell) {
+  if (result.verdict == fsr::check::Verdict::kCannotTell) {
     out << "Recorded in";
     for (const std::string& bag : bags_) out << ' ' << bag;
     out << "\nWith more mounts: roslaunch fsr_pressure_map recheck.launch bags:=\"";
     for (const std::string& bag : bags_) out << bag << ' ';
     out << "...\"\n";
-  }
-  if (!report_.empty()) {
-    fsr::settings::replaceFile(report_, fsr::report::recheckJson(recheck, parent_.id, child));
-    out << "Report written to " << report_ << '\n';
   }
   out << std::flush;
 }

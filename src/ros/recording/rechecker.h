@@ -9,8 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "calibration/correction/recheck.h"
+#include "check/check.h"
 #include "fsr_pressure_map/calibration/calibration.h"
+#include "report/check_report.h"
 #include "ros/recording/recorder.h"
 
 namespace fsr_ros {
@@ -39,10 +40,10 @@ class Rechecker {
   void judge(std::ostream& out);
 
   ros::NodeHandle handle_;
-  std::string output_, report_;
+  fsr::report::CheckOutputs outputs_;
   std::vector<std::string> bags_;
   std::optional<double> ambient_;  // [Pa]
-  fsr::calibration::RecheckOptions asked_;
+  fsr::check::CheckOptions asked_;
   std::size_t wanted_ = 0;  // cycles
   fsr::calibration::Calibration parent_;
   std::unique_ptr<Recorder> recorder_;  // null = bags are given

@@ -6,16 +6,16 @@
 #include <utility>
 #include <vector>
 
-#include "calibration/shape/mount_checks.h"
+#include "check/socket_check.h"
 #include "dataset/conditioning.h"
 #include "dataset/mounts.h"
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "fsr_pressure_map/ros/bag_reader.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "report/admission_report.h"
-#include "report/shape_report.h"
 #include "ros/bags/bag_topics.h"
 #include "ros/bags/bag_walk.h"
+#include "ros/tools/check_calibration_tool.h"
 #include "ros/tools/tool_options.h"
 #include "settings/command_line.h"
 
@@ -38,9 +38,8 @@ fsr::settings::CommandLine checkBagOptions() {
   line.option("use", "NAME",
               "chamber (default), or socket: recorded without a reference, judged by the bag alone")
       .input("calibration", "FILE",
-             "compare the surface of each bag with how the sheet rests before the first load, by this "
-             "calibration; "
-             "with --use socket also report what is outside its trained range")
+             "with --use socket also report what is outside its trained range; otherwise the same as "
+             "check_calibration FILE BAG...")
       .option("sections", "N",
               "sections of the cross-validation for which coverage is judged, 2 to 20; default 5")
       .option("ambient", "PA", "ambient pressure [Pa]; default: that of matrix_info, or 101325 without one")
@@ -71,15 +70,6 @@ std::vector<std::string> remarksOn(const std::vector<TopicCourse>& courses) {
   return remarks;
 }
 
-// How the sheet rests in each bag, if a calibration is given.
-std::optional<std::string> shapesText(const fsr::settings::CommandLine& line,
-                                      const std::vector<fsr::dataset::Recording>& recordings) {
-  if (!line.has("calibration")) return std::nullopt;
-  const fsr::calibration::Calibration calibration = fsr::calibration::loadCalibration(
-      line.text("calibration", ""), fsr::calibration::CalibrationParts::kWithoutStatistics);
-  return fsr::report::shapeText(calibration.shape, fsr::calibration::checkShapes(calibration, recordings));
-}
-
 int checkChamber(const fsr::settings::CommandLine& line, std::ostream& out) {
   fsr::discrepancy::AdmissionOptions chosen;
   chosen.sections = static_cast<std::size_t>(line.integer("sections", 5, {2, 20, ""}));
@@ -99,7 +89,6 @@ int checkChamber(const fsr::settings::CommandLine& line, std::ostream& out) {
   for (const fsr::dataset::MountRemark& remark : fsr::dataset::remarksOnMounts(recordings)) {
     recordings[remark.recording].warnings.push_back(remark.sentence);
   }
-  const std::optional<std::string> shapes = shapesText(line, recordings);
   const std::vector<std::string> conditioning = fsr::dataset::conditioningSentences(
       fsr::dataset::findConditioning(recordings, conditioningSaid(line.files())));
   fsr::discrepancy::Admission admission =
@@ -112,7 +101,14 @@ int checkChamber(const fsr::settings::CommandLine& line, std::ostream& out) {
             " was recorded in a socket, where no chamber tells the pressure; check it with --use socket");
   }
   for (const std::string& sentence : conditioning) admission.remarks.push_back(sentence);
-  if (shapes) out << *shapes << '\n';
+  if (line.has("calibration")) {
+    std::vector<std::string> words = line.files();
+    words.insert(words.begin(), line.text("calibration", ""));
+    for (const char* const option : {"ambient", "namespace"}) {
+      if (line.has(option)) words.push_back("--" + std::string(option) + "=" + line.text(option, ""));
+    }
+    checkInstead("check_bag --calibration", words, out);
+  }
   out << fsr::report::admissionText(admission) << std::flush;
   return line.has("strict") && !admission.fit() ? kNotFit : 0;
 }
@@ -134,10 +130,10 @@ int checkSockets(const fsr::settings::CommandLine& line, std::ostream& out) {
   for (const std::string& path : line.files()) {
     const fsr::dataset::Recording recording = readBag(path, bagReadOptions(line));
     out << topicsText(topicCourses(path)) << '\n';
-    const fsr::calibration::DonDoff events = {since(recording, eventTimes(path, "don"), true),
-                                              since(recording, eventTimes(path, "doff"), false)};
-    const fsr::calibration::SocketCheck check =
-        fsr::calibration::checkSocket(recording, events, calibration ? &*calibration : nullptr);
+    const fsr::check::DonDoff events = {since(recording, eventTimes(path, "don"), true),
+                                        since(recording, eventTimes(path, "doff"), false)};
+    const fsr::check::SocketCheck check =
+        fsr::check::checkSocket(recording, events, calibration ? &*calibration : nullptr);
     out << fsr::report::socketText(check) << std::flush;
     good = good && check.reasons.empty();
   }

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "ros/bags/bag_walk.h"
 #include "settings/progress.h"
 
 namespace fsr_ros {
@@ -66,6 +67,18 @@ BagReadOptions bagReadOptions(const fsr::settings::CommandLine& line) {
   how.topics = line.text("namespace", "");
   if (line.has("ambient")) how.ambient_pressure = line.number("ambient", 0, {0, 120e3, "Pa"});
   return how;
+}
+
+std::vector<fsr::dataset::Recording> readBags(const fsr::settings::CommandLine& line,
+                                              const std::vector<std::string>& bags) {
+  BagReadOptions options = bagReadOptions(line);
+  const ToolProgress progress = toolProgress();
+  std::vector<fsr::dataset::Recording> recordings;
+  for (const std::string& bag : bags) {
+    options.progress = told("reading " + bag, progress);
+    recordings.push_back(readBag(bag, options));
+  }
+  return recordings;
 }
 
 std::vector<std::string> bagsIn(const std::vector<std::string>& paths) {

@@ -4,9 +4,6 @@
 #include <iostream>
 
 #include "calibration/budget/conditioning_line.h"
-#include "calibration/calibration_check.h"
-#include "calibration/correction/corrected_calibration.h"
-#include "calibration/correction/recheck.h"
 #include "calibration/merge.h"
 #include "dataset/conditioning.h"
 #include "fsr_pressure_map/calibration/calibration.h"
@@ -15,12 +12,10 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "regression/regressors.h"
 #include "report/budget_report.h"
-#include "report/calibration_check_report.h"
 #include "report/calibration_report.h"
-#include "report/good_for.h"
-#include "report/recheck_report.h"
 #include "ros/bags/bag_topics.h"
 #include "ros/bags/bag_walk.h"
+#include "ros/tools/check_calibration_tool.h"
 #include "ros/tools/history_option.h"
 #include "ros/tools/tool_options.h"
 #include "settings/command_line.h"
@@ -39,20 +34,11 @@ std::string list(const std::vector<std::string>& names) {
 
 fsr::settings::CommandLine trainOptions() {
   fsr::settings::CommandLine line(
-      "train",
-      "BAG... --output FILE, or --merge CALIBRATION... --output FILE, or --check FILE BAG..., or --correct "
-      "FILE BAG... --output CHILD, or --budget FILE",
+      "train", "BAG... --output FILE, or --merge CALIBRATION... --output FILE, or --budget FILE",
       "Trains a calibration from bags of a matrix in a pressure chamber. It uses the topics raw, "
       "chamber_pressure and curvature, and matrix_info and temperature if they were recorded.");
   line.output("output", "FILE", "calibration file to write (HDF5)")
-      .input("check", "FILE", "test this calibration on the bags instead: is it still good?")
       .input("budget", "FILE", "print the error budget that this calibration holds, and do nothing else")
-      .input("correct", "FILE",
-             "recheck this calibration on a few cycles on one surface instead: still good, corrected, "
-             "recalibrate or cannot tell; --output is written only if it is corrected")
-      .flag("same-mount",
-            "with --correct: the sheet was not taken out since the training, so that no mount differs; "
-            "otherwise one new mount cannot be told from wear")
       .flag("merge",
             "merge calibration files: gives what training on all their bags would give, without scores")
       .option("scheme", "NAME",
@@ -160,30 +146,6 @@ fsr::calibration::CalibrationOptions calibrationOptions(const fsr::settings::Com
   return options;
 }
 
-std::vector<fsr::dataset::Recording> readBags(const fsr::settings::CommandLine& line) {
-  BagReadOptions options = bagReadOptions(line);
-  const ToolProgress progress = toolProgress();
-  std::vector<fsr::dataset::Recording> recordings;
-  for (const std::string& path : line.files()) {
-    options.progress = told("reading " + path, progress);
-    recordings.push_back(readBag(path, options));
-  }
-  return recordings;
-}
-
-int check(const fsr::settings::CommandLine& line, std::ostream& out) {
-  if (line.has("output")) throw fsr::settings::InputError("--check writes no calibration; remove --output");
-  const std::string path = line.text("check", "");
-  const fsr::calibration::Calibration calibration =
-      fsr::calibration::loadCalibration(path, fsr::calibration::CalibrationParts::kWithoutStatistics);
-  out << "Calibration " << calibration.id << " (" << fsr::compensation::schemeName(calibration.tables.scheme)
-      << ", " << calibration.provenance.date << ") on " << line.files().size() << " bags\n";
-  for (const std::string& sentence : calibration.provenance.conditioning)
-    out << "Trained with " << sentence << '\n';
-  out << fsr::report::checkText(fsr::calibration::checkCalibration(calibration, readBags(line)));
-  return 0;
-}
-
 int showBudget(const fsr::settings::CommandLine& line, std::ostream& out) {
   if (!line.files().empty() || line.has("output"))
     throw fsr::settings::InputError("--budget prints what the file holds; remove the bags and --output");
@@ -213,40 +175,6 @@ void requireOutputs(const std::string& calibration, const std::string& report) {
   if (!report.empty()) fsr::settings::requireReplaceable(report, kind::kJson);
 }
 
-// --correct.
-int correct(const fsr::settings::CommandLine& line, std::ostream& out) {
-  refuseOptionsOfTraining(line, "correct");
-  for (const char* const option : {"merge", "no-scores"}) {
-    if (line.has(option))
-      throw fsr::settings::InputError("--" + std::string(option) +
-                                      " cannot be used with --correct; remove it");
-  }
-  const std::string output = line.text("output", ""), report = line.text("report", "");
-  requireOutputs(output, report);
-  const fsr::calibration::Calibration parent = fsr::calibration::loadCalibration(line.text("correct", ""));
-  out << "Calibration " << parent.id << " (" << fsr::compensation::schemeName(parent.tables.scheme) << ", "
-      << parent.provenance.date << "), rechecked on " << line.files().size()
-      << (line.files().size() == 1 ? " bag\n" : " bags\n");
-  fsr::calibration::RecheckOptions asked;
-  asked.same_mount = line.has("same-mount");
-  const fsr::calibration::Recheck recheck =
-      fsr::calibration::recheckCalibration(parent, readBags(line), asked);
-  out << fsr::report::recheckText(recheck);
-  std::string child;
-  if (recheck.child && !output.empty()) {
-    child = fsr::calibration::saveCalibration(*recheck.child, output);
-    out << "Calibration " << child << " (" << fsr::calibration::correctionText(recheck.child->correction)
-        << ") written to " << fullPath(output) << std::endl;
-  } else if (!output.empty()) {
-    out << "No calibration was written to " << fullPath(output) << std::endl;
-  }
-  if (!report.empty()) {
-    fsr::settings::replaceFile(report, fsr::report::recheckJson(recheck, parent.id, child));
-    out << "Report written to " << fullPath(report) << std::endl;
-  }
-  return 0;
-}
-
 fsr::calibration::Calibration merge(const fsr::settings::CommandLine& line, std::ostream& out) {
   refuseOptionsOfTraining(line, "merge");
   for (const char* const option : {"ambient", "namespace"}) {
@@ -270,7 +198,7 @@ fsr::calibration::Calibration merge(const fsr::settings::CommandLine& line, std:
 
 fsr::calibration::Calibration train(const fsr::settings::CommandLine& line, std::ostream& out) {
   const fsr::calibration::CalibrationOptions chosen = calibrationOptions(line, out);
-  const fsr::calibration::CalibrationProblem problem{readBags(line), chosen};
+  const fsr::calibration::CalibrationProblem problem{readBags(line, line.files()), chosen};
   fsr::calibration::validate(problem);
   const bool details = line.has("details");
   if (details) {
@@ -292,18 +220,13 @@ fsr::calibration::Calibration train(const fsr::settings::CommandLine& line, std:
 }  // namespace
 
 int trainTool(int argc, const char* const* argv, std::ostream& out) {
+  if (const auto words = wordsOfCheck(argc, argv)) return checkInstead("train --check", *words, out);
   fsr::settings::CommandLine line = trainOptions();
   if (!line.parse(argc, argv)) {
     out << line.help();
     return 0;
   }
   if (line.has("budget")) return showBudget(line, out);
-  if (line.has("check") && line.has("correct"))
-    throw fsr::settings::InputError("--check and --correct cannot be used together; remove one of them");
-  if (line.has("same-mount") && !line.has("correct"))
-    throw fsr::settings::InputError("--same-mount is of --correct, which is not given; remove it");
-  if (line.has("check")) return check(line, out);
-  if (line.has("correct")) return correct(line, out);
   const std::string output = line.requiredText("output");
   const std::string report = line.text("report", "");
   requireOutputs(output, report);

@@ -15,8 +15,8 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "ros/bags/bag_writer.h"
-#include "ros/tools/calibration_history_tool.h"
 #include "ros/tools/check_bag_tool.h"
+#include "ros/tools/check_calibration_tool.h"
 #include "ros/tools/csv_tool.h"
 #include "ros/tools/discrepancy_tool.h"
 #include "ros/tools/export_tool.h"
@@ -214,7 +214,7 @@ TEST_F(ToolDamage, NoToolReplacesAFileOfAnotherKind) {
       {trainTool, {bag_, "--output"}, kCalibration, ""},
       {trainTool, {bag_, "--output", c, "--report"}, kJson, ""},
       {trainTool, {"--merge", bag_, "--output"}, kCalibration, ""},
-      {trainTool, {"--correct", c, bag_, "--output"}, kCalibration, ""},
+      {checkCalibrationTool, {c, bag_, "--correct", "--output"}, kCalibration, ""},
       {scrubTool, {bag_, "--output"}, "a bag", ""},
       {exportAll, {bag_, "--to", "csv", "--output"}, "a table of values", ""},
       {exportAll, {bag_, "--to", "tekscan", "--output"}, "a Tekscan file", ""},
@@ -228,7 +228,7 @@ TEST_F(ToolDamage, NoToolReplacesAFileOfAnotherKind) {
       {simulateTool, {"--simulation", bench, "--shard", "1/2", "--output"}, kJson, "shard_1_of_2.json"},
       {studyTool, {bag_, "--output"}, kJson, "results.json"},
       {discrepancyTool, {bag_, "--output"}, "a YAML file of the kind verdict", "verdict.yaml"},
-      {calibrationHistoryTool, {folder_.path(), "--output"}, kJson, "life.json"},
+      {checkCalibrationTool, {folder_.path(), "--output"}, kJson, "life.json"},
   };
   const std::map<std::string, std::string> precious = {
       {"a bag", sound_},
@@ -260,7 +260,7 @@ TEST_F(ToolDamage, APipeIsRefusedAsAnyInput) {
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
   for (const std::string& sentence :
        {said(checkBagTool, {pipe}), said(scrubTool, {pipe, "--output", out}),
-        said(trainTool, {pipe, "--output", out}), said(trainTool, {"--check", pipe, bag_}),
+        said(trainTool, {pipe, "--output", out}), said(checkCalibrationTool, {pipe, bag_}),
         said(trainTool, {"--merge", pipe, "--output", out}),
         said(exportAll, {pipe, "--to", "hdf5", "--output", out}),
         said(exportAll, {bag_, "--calibration", pipe, "--to", "csv", "--output", out}),

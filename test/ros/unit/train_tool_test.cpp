@@ -355,60 +355,19 @@ TEST_F(TrainTool, PrintsTheErrorBudgetOfAFileAgain) {
   EXPECT_NE(run({bend_, "--output", output, "--transducer", "-1"}).find("--transducer"), std::string::npos);
 }
 
-TEST_F(TrainTool, ChecksACalibrationOnNewBags) {
+// For one version.
+TEST_F(TrainTool, HandsTheOldOptionsOverToCheckCalibration) {
   const std::string output = (folder_ / "calibration.h5").string();
   run({bend_, "--output", output, "--no-scores", "--bandwidth", "0.05"});
-  const std::string good = run({"--check", output, bend_});
-  EXPECT_NE(good.find("cylinder_7cm"), std::string::npos) << good;
-  EXPECT_NE(good.find("Still good."), std::string::npos) << good;
-  const std::string other = record("flat.bag", {"flat", 0.0});
-  const std::string bad = run({"--check", output, other});
-  EXPECT_NE(bad.find("Recalibrate, because"), std::string::npos) << bad;
-  EXPECT_EQ(run({"--check", output, "--output", output + ".new", bend_}),
-            "--check writes no calibration; remove --output");
-}
-
-TEST_F(TrainTool, CorrectsAWornSheetOnce) {
-  const std::string output = (folder_ / "calibration.h5").string();
-  const std::string child = (folder_ / "child.h5").string(), report = (folder_ / "recheck.json").string();
-  run({bend_, "--output", output, "--no-scores", "--bandwidth", "0.05"});
-  const std::string good = run({"--correct", output, bend_, "--output", child});
-  EXPECT_NE(good.find("Still good: "), std::string::npos) << good;
-  EXPECT_NE(good.find("; expected RMSE of the map "), std::string::npos) << good;
-  EXPECT_NE(good.find(" kPa, of the tables alone "), std::string::npos) << good;
-  EXPECT_NE(good.find("No calibration was written to " + child), std::string::npos) << good;
-  EXPECT_FALSE(fs::exists(child));
-  test_support::SyntheticRig rig;
-  rig.surfaces = {{"cylinder_7cm", 14.25}};
-  fsr::dataset::Recording worn = test_support::syntheticRecording(rig);
-  for (std::uint16_t& count : worn.counts) count = static_cast<std::uint16_t>(0.9 * count + 30);
-  worn.start_ns = 1600000000000000000;
-  const std::string bag = (folder_ / "worn.bag").string();
-  writeBag(bag, worn);
-  const std::string doubt = run({"--correct", output, bag, "--output", child});
-  EXPECT_NE(doubt.find("Cannot tell: "), std::string::npos) << doubt;  // wear, or the new mount
-  EXPECT_FALSE(fs::exists(child));
-  const std::string text =
-      run({"--correct", output, bag, "--same-mount", "--output", child, "--report", report});
-  const fsr::calibration::Calibration parent = fsr::calibration::loadCalibration(output);
-  const fsr::calibration::Calibration corrected = fsr::calibration::loadCalibration(child);
-  EXPECT_NE(text.find("Corrected: on cycles that were left out"), std::string::npos) << text;
-  EXPECT_NE(text.find("Calibration " + corrected.id + " (corrected on "), std::string::npos) << text;
-  EXPECT_EQ(corrected.correction.parent, parent.id);
-  ASSERT_EQ(corrected.correction.bags.size(), 1u);
-  EXPECT_EQ(corrected.correction.bags[0].name, "worn.bag");
-  EXPECT_EQ(corrected.correction.bags[0].sha256.size(), 64u);
-  std::ifstream file(report);
-  const std::string json(std::istreambuf_iterator<char>(file), {});
-  EXPECT_NE(json.find("\"verdict\": \"corrected\""), std::string::npos) << json;
-  EXPECT_NE(json.find("\"child\": \"" + corrected.id + "\""), std::string::npos) << json;
-  EXPECT_EQ(run({"--correct", child, bag}), "calibration " + corrected.id + " is itself a correction of " +
-                                                parent.id +
-                                                "; correct that one again with the new bags, or train anew");
-  EXPECT_EQ(run({"--correct", output, bag, "--model", "linear"}),
-            "--model cannot be used with --correct, because the files determine it");
-  EXPECT_EQ(run({"--correct", output, "--check", output, bag}),
-            "--check and --correct cannot be used together; remove one of them");
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"--check", output, bend_}, {bend_, "--check=" + output}}) {
+    const std::string said = run(words);
+    EXPECT_EQ(said.find("train --check is now check_calibration: " + output + ' ' + bend_ + '\n'), 0u)
+        << said;
+    EXPECT_NE(said.find("Still good."), std::string::npos) << said;
+  }
+  const std::string corrected = run({"--correct", output, bend_, "--same-mount"});
+  EXPECT_NE(corrected.find("\nStill good: "), std::string::npos) << corrected;
 }
 
 TEST_F(TrainTool, WrongUsageIsOneSentence) {

@@ -1,0 +1,363 @@
+#include "check/map_errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <map>
+#include <set>
+
+#include "calibration/history_parts.h"
+#include "calibration/session/session_check.h"
+#include "calibration/sources.h"
+#include "calibration/temperature/temperature_course.h"
+#include "dataset/count_readers.h"
+#include "dataset/protocols.h"
+#include "fsr_pressure_map/calibration/calibrator.h"
+#include "fsr_pressure_map/settings/input_error.h"
+#include "settings/number_text.h"
+#include "statistics/error_bins.h"
+
+namespace fsr::check {
+
+namespace {
+
+using calibration::Calibration;
+using calibration::HistoryScore;
+using dataset::Recording;
+
+constexpr std::uint64_t kLeastReadings = 100;                   // of a taxel, before it can be suspicious
+constexpr std::size_t kUnsettled = calibration::kHistoryParts;  // place of the readings before it was settled
+constexpr std::size_t kFirstProtocol = kUnsettled + 1;
+
+// Sums over the readings of one surface, of one taxel, or of all.
+struct Sums {
+  std::uint64_t readings = 0;
+  std::uint64_t within = 0;
+  std::uint64_t beyond = 0;
+  std::uint64_t not_settled = 0;
+  double error = 0;     // [Pa]
+  double square = 0;    // [Pa^2]
+  double expected = 0;  // of the stated deviations [Pa^2]
+
+  void add(double e, double deviation, std::uint16_t flags) {
+    constexpr std::uint16_t kBeyond =
+        map::taxel_flag::kReadingExtrapolated | map::taxel_flag::kCurvatureExtrapolated;
+    ++readings;
+    within += std::abs(e) <= deviation;
+    beyond += (flags & kBeyond) != 0;
+    not_settled += (flags & map::taxel_flag::kHistoryShort) != 0;
+    error += e;
+    square += e * e;
+    expected += deviation * deviation;
+  }
+  double rmse() const { return std::sqrt(square / double(readings)); }
+  double expectedRmse() const { return std::sqrt(expected / double(readings)); }
+
+  CheckedReadings summary(const std::string& name) const {
+    const auto n = double(readings);
+    if (readings == 0) return {name};
+    return {name,      readings,           expectedRmse(),     rmse(),
+            error / n, double(within) / n, double(beyond) / n, double(not_settled) / n};
+  }
+};
+
+// Of the readings of one part of the model of the sheet's memory.
+struct PartSums {
+  std::uint64_t readings = 0, within = 0;
+  double static_square = 0, square = 0;  // [Pa^2]
+};
+
+// "(0, 3), (2, 9)": row and column.
+std::string places(const std::vector<std::size_t>& taxels, const matrix::Layout& layout) {
+  constexpr std::size_t kListed = 8;
+  std::string list;
+  for (std::size_t i = 0; i < std::min(taxels.size(), kListed); ++i) {
+    list += (i == 0 ? "(" : ", (") + std::to_string(layout.row({taxels[i]})) + ", " +
+            std::to_string(layout.column({taxels[i]})) + ")";
+  }
+  return taxels.size() > kListed ? list + ", ..." : list;
+}
+
+// The live map of a recording: as a node shows it, or without the model of memory or the tare.
+struct LiveMap {
+  LiveMap(const Calibration& calibration, bool with_tare) : calibrator(calibration), tared(with_tare) {}
+
+  calibration::Calibrator calibrator;
+  bool tared;
+  map::PressureMap map;
+
+  // A reading without conductance is an upper limit and a saturated one a lower limit; neither has an error.
+  // A reading below those of training has one: at a known pressure it shows that the sheet reads less than
+  // it did.
+  bool hasValue(std::size_t taxel, std::uint16_t count) const {
+    const bool limit = count == 0 || (map.flags[taxel] & map::taxel_flag::kSaturated) != 0;
+    return !std::isnan(map.pressure[taxel]) && !limit;
+  }
+};
+
+class Checker {
+ public:
+  Checker(const Calibration& calibration, const std::vector<Recording>& recordings)
+      : calibration_(calibration), static_(calibration), taxels_(calibration.layout.size.taxels()) {
+    static_.history = {};
+    if (!calibration.history.present()) return;
+    for (const Recording& recording : recordings)
+      sections_.push_back(dataset::divideIntoSections(recording, calibration.folds));
+    protocols_ = dataset::protocolsOf(recordings, sections_);
+    parts_.resize(kFirstProtocol + protocols_.names.size());
+  }
+
+  void take(const Recording& recording) {
+    const std::size_t number = bags_.size();
+    bags_.push_back({recording.name, {}});
+    std::deque<LiveMap> maps;  // a calibrator does not move
+    maps.emplace_back(calibration_, true);
+    if (calibration_.history.present()) maps.emplace_back(static_, true);
+    if (calibration_.session_zero.expected()) maps.emplace_back(calibration_, false);
+    for (LiveMap& one : maps) one.calibrator.setMask(recording.mask);
+    std::size_t surface = recording.conditions.size();
+    double turned = 0;  // when the chamber last changed its direction
+    dataset::ScanCounts counts(recording);
+    for (std::size_t i = 0; i < recording.scans(); ++i) {
+      const bool moved = recording.condition[i] != surface;
+      surface = recording.condition[i];
+      if (moved) setSurface(recording, i, maps);
+      const matrix::ScanView scan{recording.layout.size, recording.full_scale, counts[i], taxels_.size()};
+      for (LiveMap& one : maps) {
+        calibration::setTemperatureOf(recording, i, calibration_, one.calibrator);
+        one.calibrator.calibrate(scan, recording.time[i], one.map);
+      }
+      add(scan.counts, recording.pressure[i], maps.front(), surfaces_[recording.conditions[surface].name]);
+      if (calibration_.session_zero.expected()) addUntared(scan.counts, recording.pressure[i], maps.back());
+      if (!calibration_.history.present()) continue;
+      const dataset::Sections& sections = sections_[number];
+      if (i == 0 || moved || sections.direction[i] != sections.direction[i - 1]) turned = recording.time[i];
+      addParts(scan.counts, recording.pressure[i], maps[0], maps[1],
+               calibration::historyPartsOf(sections.direction[i], recording.time[i] - turned),
+               protocols_.of_scan[number][i]);
+    }
+    noteFailed(maps.front().calibrator.watch().flags());
+  }
+
+  MapErrors result(const MapLimits& limits) const {
+    MapErrors errors;
+    errors.range = calibration_.trained.pressure;
+    errors.whole = whole_.summary("");
+    for (const std::string& name : order_) errors.surfaces.push_back(surfaces_.at(name).summary(name));
+    for (const auto& [name, sums] : bags_) errors.bags.push_back(sums.summary(name));
+    for (std::size_t level = 0; level < errors.within.size(); ++level)
+      errors.within[level] = sizes_.quantile(calibration::kIntervalLevels[level]);
+    for (std::size_t i = 0; i < taxels_.size(); ++i) {
+      const Sums& sums = taxels_[i];
+      if (sums.readings >= kLeastReadings && sums.rmse() > limits.taxel_ratio * sums.expectedRmse())
+        errors.suspicious.push_back(i);
+    }
+    errors.dead = dead_;
+    errors.stuck = stuck_;
+    for (std::size_t part = 0; part < parts_.size(); ++part) addPart(part, errors.history);
+    noteTare(errors);
+    return errors;
+  }
+
+ private:
+  void setSurface(const Recording& recording, std::size_t scan, std::deque<LiveMap>& maps) {
+    const std::size_t condition = recording.condition[scan];
+    const matrix::Surface& surface = recording.conditions[condition];
+    if (surfaces_.try_emplace(surface.name).second) order_.push_back(surface.name);
+    const std::vector<float> offset = calibration::tareAtStart(calibration_, recording, condition);
+    if (offset.empty() && calibration_.session_zero.expected())
+      without_rest_.insert(recording.name + ", " + surface.name);
+    for (LiveMap& one : maps) {
+      one.calibrator.setSurface(surface, recording.time[scan]);
+      if (!one.tared) continue;
+      one.calibrator.setTare(offset);
+      if (!offset.empty()) one.calibrator.markRest();
+    }
+  }
+
+  void add(const std::uint16_t* counts, double pressure, const LiveMap& live, Sums& surface) {
+    for (std::size_t i = 0; i < taxels_.size(); ++i) {
+      if (!live.hasValue(i, counts[i])) continue;
+      const double error = live.map.pressure[i] - pressure;
+      for (Sums* sums : {&whole_, &surface, &bags_.back().second, &taxels_[i]})
+        sums->add(error, live.map.deviation[i], live.map.flags[i]);
+      sizes_.add(static_cast<float>(error));
+    }
+  }
+
+  void addUntared(const std::uint16_t* counts, double pressure, const LiveMap& live) {
+    for (std::size_t i = 0; i < taxels_.size(); ++i) {
+      if (live.hasValue(i, counts[i])) untared_.add(live.map.pressure[i] - pressure, 0, 0);
+    }
+  }
+
+  void addParts(const std::uint16_t* counts, double pressure, const LiveMap& live, const LiveMap& fixed,
+                const std::array<std::size_t, 3>& parts, std::uint32_t protocol) {
+    for (std::size_t i = 0; i < taxels_.size(); ++i) {
+      if (!live.hasValue(i, counts[i])) continue;
+      const double before = fixed.map.pressure[i] - pressure, error = live.map.pressure[i] - pressure;
+      const auto add_to = [&, within = std::abs(error) <= live.map.deviation[i]](std::size_t part) {
+        ++parts_[part].readings;
+        parts_[part].within += within;
+        parts_[part].static_square += before * before;
+        parts_[part].square += error * error;
+      };
+      add_to(0);
+      if ((live.map.flags[i] & map::taxel_flag::kHistoryShort) != 0) {
+        add_to(kUnsettled);
+        continue;
+      }
+      for (std::size_t k = 1; k < parts.size(); ++k) {
+        if (parts[k] != parts[k - 1]) add_to(parts[k]);
+      }
+      if (protocol != dataset::Protocols::kOther) add_to(kFirstProtocol + protocol);
+    }
+  }
+
+  void addPart(std::size_t part, std::vector<HistoryScore::Part>& history) const {
+    const PartSums& sums = parts_[part];
+    if (sums.readings == 0) return;
+    const std::string name = part == kUnsettled  ? "not settled: static answer"
+                             : part < kUnsettled ? calibration::historyPartName(part)
+                                                 : protocols_.names[part - kFirstProtocol];
+    const auto n = double(sums.readings);
+    history.push_back({name, sums.readings, std::sqrt(sums.static_square / n), std::sqrt(sums.square / n),
+                       double(sums.within) / n});
+  }
+
+  void noteFailed(const std::vector<std::uint16_t>& flags) {
+    for (std::size_t i = 0; i < flags.size(); ++i) {
+      if ((flags[i] & map::taxel_flag::kDead) != 0) dead_.push_back(i);
+      if ((flags[i] & map::taxel_flag::kStuck) != 0) stuck_.push_back(i);
+    }
+  }
+
+  void noteTare(MapErrors& errors) const {
+    if (!calibration_.session_zero.expected()) return;
+    errors.rmse_without_tare = untared_.rmse();
+    errors.remarks.push_back(
+        "each session is checked with a tare at its start, as the calibration expects; without it the RMSE "
+        "is " +
+        settings::fixedKilopascals(errors.rmse_without_tare, 1));
+    for (const std::string& session : without_rest_) {
+      errors.remarks.push_back(
+          session +
+          ": does not start with 2 s at rest at the lowest pressure, so that the session "
+          "is checked without the tare that the calibration expects");
+    }
+  }
+
+  const Calibration& calibration_;
+  Calibration static_;                       // the same without a model of memory
+  std::vector<dataset::Sections> sections_;  // [recordings], for that model
+  dataset::Protocols protocols_;             // likewise
+  Sums whole_, untared_;
+  statistics::ErrorSizes sizes_;                    // of the errors [Pa]
+  std::vector<std::pair<std::string, Sums>> bags_;  // by name
+  std::map<std::string, Sums> surfaces_;
+  std::vector<std::string> order_;  // of the surfaces
+  std::vector<Sums> taxels_;
+  std::vector<PartSums> parts_;
+  std::vector<std::size_t> dead_, stuck_;
+  std::set<std::string> without_rest_;  // sessions
+};
+
+std::string allowed(const std::string& limit) {
+  return " (allowed: " + limit + ")";
+}
+
+void judge(const CheckedReadings& checked, double range, const MapLimits& limits,
+           std::vector<std::string>& faults) {
+  const std::string where = checked.name.empty() ? "" : "on " + checked.name + " ";
+  if (checked.readings == 0) return;
+  if (checked.beyond_training > limits.beyond_share) {
+    faults.push_back(where + settings::percentText(checked.beyond_training) +
+                     " of the readings are outside the range of training" +
+                     allowed(settings::percentText(limits.beyond_share)));
+  }
+  if (checked.rmse > limits.rmse_ratio * checked.expected_rmse) {
+    faults.push_back(where + "errors are " + settings::fixedText(checked.rmse / checked.expected_rmse, 2) +
+                     " times the expected ones (RMSE " + settings::fixedKilopascals(checked.rmse, 1) +
+                     ", expected " + settings::fixedKilopascals(checked.expected_rmse, 1) +
+                     "; allowed: " + settings::fixedText(limits.rmse_ratio, 2) + " times)");
+  }
+  if (std::abs(checked.bias) > limits.bias_share * range) {
+    faults.push_back(where + "maps are " + settings::fixedKilopascals(std::abs(checked.bias), 1) +
+                     (checked.bias > 0 ? " above" : " below") + " the chamber pressure on average, " +
+                     settings::percentText(std::abs(checked.bias) / range) + " of the range" +
+                     allowed(settings::percentText(limits.bias_share)));
+  }
+}
+
+void judgeTaxels(const Calibration& calibration, const MapLimits& limits, MapErrors& errors) {
+  const matrix::Layout& layout = calibration.layout;
+  const std::string larger = "errors more than " + settings::fixedText(limits.taxel_ratio, 1) +
+                             " times the expected ones: " + places(errors.suspicious, layout);
+  if (double(errors.suspicious.size()) > limits.taxel_share * double(layout.size.taxels())) {
+    errors.faults.push_back(std::to_string(errors.suspicious.size()) + " taxels (row, column) have " +
+                            larger);
+  } else if (!errors.suspicious.empty()) {
+    errors.remarks.push_back("taxels (row, column) with " + larger);
+  }
+  if (!errors.dead.empty()) errors.faults.push_back("taxels are dead: " + places(errors.dead, layout));
+  if (!errors.stuck.empty()) errors.faults.push_back("taxels are stuck: " + places(errors.stuck, layout));
+}
+
+// Readings that are not settled are judged as static answers.
+std::string memoryNotShown(const Calibration& calibration, double not_settled) {
+  std::string text = "the sheet's memory: " + settings::percentText(not_settled) +
+                     " of the readings were not settled and are static answers";
+  const std::vector<HistoryScore::Part>& parts = calibration.scores.history.parts;
+  if (!parts.empty()) {
+    text += ", so that the RMSE that training found with it on left-out protocols (" +
+            settings::fixedKilopascals(parts.front().rmse, 1) + " instead of " +
+            settings::fixedKilopascals(parts.front().static_rmse, 1) + ") was not seen";
+  }
+  return text + "; give a bag that begins at rest, or one with wide changes of load after " +
+         settings::fixedText(std::ceil(calibration.history.settlingTime()), 0) + " s";
+}
+
+void noteWhatIsNotShown(const Calibration& calibration, const std::vector<Recording>& recordings,
+                        MapErrors& errors) {
+  constexpr double kMost = 0.5;    // of the readings: their RMSE is then that of the others
+  constexpr double kLoaded = 0.9;  // of the trained pressures, as in the coverage of a training
+  if (calibration.history.present() && errors.whole.not_settled > kMost)
+    errors.not_shown.push_back(memoryNotShown(calibration, errors.whole.not_settled));
+  double highest = 0;
+  for (const Recording& recording : recordings) {
+    for (const double pressure : recording.pressure) highest = std::max(highest, pressure);
+  }
+  if (highest >= kLoaded * errors.range.high) return;
+  errors.not_shown.push_back("pressures of " + settings::fixedText(highest / 1000, 0) + " to " +
+                             settings::fixedText(errors.range.high / 1000, 0) +
+                             " kPa: the bags do not reach them");
+}
+
+}  // namespace
+
+MapErrors errorsOfMap(const Calibration& calibration, const std::vector<Recording>& recordings,
+                      const MapLimits& limits) {
+  if (recordings.empty())
+    throw settings::InputError("there is no bag to check the calibration on; give one at least");
+  for (const Recording& recording : recordings) calibration::requireFit(calibration, recording);
+  Checker checker(calibration, recordings);
+  for (const Recording& recording : recordings) checker.take(recording);
+  MapErrors errors = checker.result(limits);
+  if (errors.whole.readings == 0)
+    throw settings::InputError("no reading of the bags gives a pressure; is every taxel masked?");
+  const double range = errors.range.high - errors.range.low;
+  judge(errors.whole, range, limits, errors.faults);
+  for (const CheckedReadings& checked : errors.surfaces) judge(checked, range, limits, errors.faults);
+  judgeTaxels(calibration, limits, errors);
+  for (const Recording& recording : recordings) {
+    const std::string &serial = recording.sensor.serial, &trained = calibration.sensor.serial;
+    if (!serial.empty() && !trained.empty() && serial != trained) {
+      errors.faults.push_back(recording.name + " is of sensor " + serial +
+                              ", but the calibration was made with " + trained);
+    }
+  }
+  noteWhatIsNotShown(calibration, recordings, errors);
+  return errors;
+}
+
+}  // namespace fsr::check

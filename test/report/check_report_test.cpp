@@ -1,0 +1,75 @@
+#include "report/check_report.h"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using fsr::check::CheckResult;
+using fsr::check::Verdict;
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+std::string checkText(const CheckResult& result) {
+  return fsr::report::checkText(result, {});
+}
+
+// A check of 1,000 readings with an error of 3 kPa, where 4 kPa are expected.
+CheckResult example() {
+  CheckResult result;
+  result.map.whole = {"", 1000, 4000, 3000, -250, 0.71, 0.002, 0};
+  result.map.range = {0, 620e3};
+  result.map.within = {6.2e3, 15.5e3};
+  result.map.bags.resize(2);
+  result.map.bags[0].name = "a.bag", result.map.bags[0].rmse = 5e3;
+  result.map.bags[1].name = "b.bag", result.map.bags[1].rmse = 9e3;
+  return result;
+}
+
+TEST(CheckReport, HasARowForAllReadings) {
+  EXPECT_TRUE(
+      contains(checkText(example()),
+               "all             1000           4.0        3.0       -0.2          71.0         0.2\n"))
+      << checkText(example());
+}
+
+TEST(CheckReport, OfASurfaceWithoutReadingsHasDashes) {
+  CheckResult result = example();
+  result.map.surfaces.emplace_back();
+  result.map.surfaces.back().name = "flat";
+  EXPECT_TRUE(
+      contains(checkText(result),
+               "flat               0             -          -          -             -           -\n"))
+      << checkText(result);
+  EXPECT_FALSE(contains(checkText(result), "nan"));
+}
+
+TEST(CheckReport, SaysWhatTheMapIsGoodForAndNamesTheWorstBag) {
+  EXPECT_TRUE(contains(
+      checkText(example()),
+      "\nGood for: 68 % of the readings of these bags err by at most 6.2 kPa (1.0 % of the range) and 95 % "
+      "by at most 15.5 kPa (2.5 % of the range); worst bag: b.bag, RMSE 9.0 kPa; next: use it\n"))
+      << checkText(example());
+}
+
+TEST(CheckReport, SaysWhatTheBagsDoNotShow) {
+  EXPECT_TRUE(contains(checkText(example()), "\nStill good.\n"));
+  CheckResult result = example();
+  result.map.not_shown = {"the sheet's memory: 100.0 % of the readings were not settled"};
+  EXPECT_TRUE(contains(checkText(result), "\nNot shown: the sheet's memory: 100.0 %"));
+  EXPECT_TRUE(contains(checkText(result), "\nStill good as far as these bags show.\n"));
+}
+
+TEST(CheckReport, EndsWithTheVerdictAndItsReasons) {
+  CheckResult result = example();
+  result.verdict = Verdict::kRecalibrate;
+  result.reasons = {"errors are large", "taxels are dead: (0, 1)"};
+  EXPECT_TRUE(contains(checkText(result),
+                       "\nRecalibrate, because\n  - errors are large\n  - taxels are dead: (0, 1)\n"));
+  result.verdict = Verdict::kCorrected;
+  result.reasons = {"it wins"};
+  EXPECT_TRUE(contains(checkText(result), "\nCorrected: it wins\n"));
+}
+
+}  // namespace
