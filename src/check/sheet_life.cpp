@@ -10,7 +10,6 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "statistics/samples.h"
-#include "statistics/samples.h"
 
 namespace fsr::check {
 

@@ -78,7 +78,7 @@ std::vector<std::string> measuredBags(const fsr::settings::CommandLine& line) {
 }
 
 // `whole`: with the scans near a change of surface, too.
-std::vector<fsr::dataset::Recording> readBags(const DrivingBags& bags, bool whole,
+std::vector<fsr::dataset::Recording> readDrivingBags(const DrivingBags& bags, bool whole,
                                               const fsr::discrepancy::DiscrepancyProgress& progress) {
   std::vector<fsr::dataset::Recording> recordings;
   for (const std::string& path : bags.paths) {
@@ -163,10 +163,10 @@ int find(const fsr::settings::CommandLine& line, std::ostream& out) {
   fsr::discrepancy::DiscrepancyProblem problem;
   problem.options = discrepancyOptions(line);
   const DrivingBags bags{measuredBags(line), bagReadOptions(line)};
-  problem.recordings = readBags(bags, false, progress);
+  problem.recordings = readDrivingBags(bags, false, progress);
   const bool changes = std::any_of(problem.recordings.begin(), problem.recordings.end(),
                                    [](const auto& recording) { return recording.losses.near_change > 0; });
-  if (changes) problem.whole = readBags(bags, true, progress);
+  if (changes) problem.whole = readDrivingBags(bags, true, progress);
   problem.simulation = simulationFor(line, problem.recordings.front());
   fsr::discrepancy::DiscrepancyReport report = fsr::discrepancy::investigate(problem, progress);
   if (report.verdict == fsr::discrepancy::Verdict::kNone) requireChamber(bags);
@@ -217,7 +217,7 @@ int confirmVerdict(const fsr::settings::CommandLine& line, std::ostream& out) {
                                     ", which predicts nothing that can be confirmed");
   }
   const std::vector<fsr::dataset::Recording> recordings =
-      readBags({measuredBags(line), bagReadOptions(line)}, false, toolProgress());
+      readDrivingBags({measuredBags(line), bagReadOptions(line)}, false, toolProgress());
   requireNew(recordings, verdict, stored.frozen.readings_sha256, path);
   fsr::discrepancy::Confirmation answer =
       fsr::discrepancy::confirm(stored.frozen.prediction, stored.base, recordings);

@@ -1,4 +1,4 @@
-#include "ros/recording/recording_watch.h"
+#include "ros/recording/session_server.h"
 
 #include <gtest/gtest.h>
 
