@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "fsr_pressure_map/calibration/calibration.h"
@@ -67,6 +68,10 @@ class MembersWriter {
   template <typename T, std::size_t kSize>
   Json json(const std::array<T, kSize>& values) const {
     return listOf(values);
+  }
+  template <typename First, typename Second>
+  Json json(const std::pair<First, Second>& values) const {
+    return Json::array({json(values.first), json(values.second)});
   }
   template <typename T>
   Json json(const std::optional<T>& value) const {
