@@ -1,28 +1,29 @@
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
+#include <vector>
 
-#include "calibration/bandwidth_choice.h"
 #include "calibration/budget/budget_lines.h"
 #include "calibration/budget/interval_tally.h"
 #include "calibration/budget/new_mount_line.h"
-#include "calibration/curvature_rule_learning.h"
 #include "calibration/held_out_scoring.h"
 #include "calibration/history_training.h"
 #include "calibration/remount_errors.h"
 #include "calibration/session/session_rests.h"
 #include "calibration/session/session_zero.h"
-#include "calibration/shape/shape_training.h"
+#include "calibration/shape/learn_from_mounts.h"
 #include "calibration/sources.h"
 #include "calibration/taxel_training.h"
 #include "calibration/temperature/temperature_course.h"
 #include "calibration/temperature/temperature_training.h"
-#include "calibration/trained_ranges.h"
 #include "calibration/training_scans.h"
 #include "compensation/fit_scheme.h"
 #include "compensation/training_statistics.h"
-#include "dataset/measure_coverage.h"
+#include "dataset/sections.h"
 #include "fsr_pressure_map/calibration/calibration.h"
+#include "fsr_pressure_map/dataset/condition_classes.h"
+#include "fsr_pressure_map/dataset/recording.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "matrix/for_each_taxel.h"
 #include "settings/step_progress.h"
@@ -30,6 +31,41 @@
 namespace fsr::calibration {
 
 namespace {
+
+// Over a shorter time, noise would count as a rate; over a longer one, a gap would hide it [s].
+constexpr double kRateSpan = 1.0;
+constexpr double kLongestRateSpan = 2.0;
+
+// The rate of the pressure from scan `i` over kRateSpan. `later` moves along with i. NaN if the condition
+// changes or the scans pause in between.
+double rateFrom(const dataset::Recording& recording, std::size_t i, std::size_t& later) {
+  while (later < recording.scans() && recording.time[later] - recording.time[i] < kRateSpan) ++later;
+  if (later == recording.scans() || recording.condition[later] != recording.condition[i]) return NAN;
+  const double span = recording.time[later] - recording.time[i];
+  if (span > kLongestRateSpan) return NAN;
+  return (recording.pressure[later] - recording.pressure[i]) / span;
+}
+
+// The ranges over the scans of those classes for which `trained` is true.
+TrainedRanges findTrainedRanges(const std::vector<dataset::Recording>& recordings,
+                                const dataset::ConditionClasses& classes, const std::vector<bool>& trained) {
+  TrainedRanges ranges;
+  for (std::size_t r = 0; r < recordings.size(); ++r) {
+    const dataset::Recording& recording = recordings[r];
+    std::size_t later = 0;
+    for (std::size_t i = 0; i < recording.scans(); ++i) {
+      if (!trained[classes.class_of[r][recording.condition[i]]]) continue;
+      ranges.pressure.include(recording.pressure[i]);
+      ranges.pressure_rate.include(rateFrom(recording, i, later));
+      if (!recording.temperature.empty()) ranges.temperature.include(recording.temperature[i]);
+    }
+  }
+  for (std::size_t c = 0; c < classes.classes.size(); ++c) {
+    if (!trained[c]) continue;
+    for (const double curvature : classes.classes[c].curvature) ranges.curvature.include(curvature);
+  }
+  return ranges;
+}
 
 // Training of a calibration: the recordings in the form that training needs, and the work on each taxel.
 class Training {
@@ -233,6 +269,12 @@ Calibration trainAtReference(const CalibrationProblem& problem, const Calibratio
 }
 
 }  // namespace
+
+void TrainedInterval::include(double value) {
+  if (std::isnan(value)) return;
+  if (!(low <= value)) low = value;
+  if (!(high >= value)) high = value;
+}
 
 Calibration calibrate(const CalibrationProblem& problem, const CalibrationProgress& progress) {
   validate(problem);

@@ -8,7 +8,6 @@
 #include <string>
 #include <tuple>
 
-#include "calibration/class_switch.h"
 #include "calibration/packed_tables.h"
 #include "compensation/history_state.h"
 #include "compensation/temperature_state.h"

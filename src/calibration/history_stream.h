@@ -8,8 +8,8 @@
 #include "compensation/history_fit.h"
 #include "dataset/count_readers.h"
 #include "dataset/protocols.h"
-#include "dataset/row_spool.h"
 #include "dataset/sections.h"
+#include "dataset/unnamed_file.h"
 #include "fsr_pressure_map/dataset/condition_classes.h"
 #include "fsr_pressure_map/dataset/recording.h"
 

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "calibration/held_out_scoring.h"
-#include "calibration/history_errors.h"
 #include "calibration/history_folds.h"
 #include "dataset/protocols.h"
 #include "fsr_pressure_map/settings/input_error.h"

@@ -4,13 +4,11 @@
 #include <memory>
 #include <sstream>
 
-#include "calibration/bandwidth_choice.h"
 #include "calibration/sources.h"
 #include "calibration/taxel_training.h"
 #include "compensation/training_statistics.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "matrix/for_each_taxel.h"
-#include "regression/option_names.h"
 #include "regression/regressors.h"
 #include "settings/number_text.h"
 

@@ -11,7 +11,7 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "health/recording_health.h"
 #include "settings/number_text.h"
-#include "statistics/median.h"
+#include "statistics/samples.h"
 
 namespace fsr::calibration {
 

@@ -3,8 +3,7 @@
 #include <ctime>
 
 #include "dataset/conditioning.h"
-#include "dataset/mounts/differing_mounts.h"
-#include "dataset/mounts/mount_remarks.h"
+#include "dataset/mounts.h"
 
 namespace fsr::calibration {
 

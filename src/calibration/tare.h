@@ -7,7 +7,7 @@
 
 #include "fsr_pressure_map/map/pressure_map.h"
 #include "fsr_pressure_map/matrix/curvature.h"
-#include "statistics/running_moments.h"
+#include "statistics/samples.h"
 
 namespace fsr::calibration {
 

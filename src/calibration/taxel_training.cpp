@@ -1,16 +1,154 @@
 #include "calibration/taxel_training.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <memory>
 
-#include "calibration/bandwidth_choice.h"
-#include "calibration/curvature_rule_learning.h"
+#include "compensation/effect_law.h"
 #include "compensation/learn_scheme.h"
+#include "compensation/training_statistics.h"
+#include "compensation/unseen_curvature.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "matrix/for_each_taxel.h"
+#include "regression/bandwidth_search.h"
 #include "regression/regressors.h"
+#include "settings/step_progress.h"
 
 namespace fsr::calibration {
+
+namespace {
+
+std::vector<regression::CodeStatistics> sectionsOf(const std::vector<std::size_t>& classes,
+                                                   const compensation::TrainingStatistics& statistics,
+                                                   std::size_t taxel) {
+  std::vector<regression::CodeStatistics> sections(statistics.sections);
+  for (std::size_t section = 0; section < sections.size(); ++section) {
+    for (const std::size_t k : classes) sections[section].merge(statistics.cell(taxel, k, section));
+  }
+  return sections;
+}
+
+// Errors of all models of one taxel.
+regression::BandwidthErrors errorsOf(const regression::GrnnOptions& options,
+                                     const compensation::SchemePlan& plan,
+                                     const compensation::TrainingStatistics& statistics, std::size_t taxel) {
+  regression::GrnnOptions alike = options;
+  alike.weighting = regression::SampleWeighting::kEachSample;
+  const auto errors = [&](std::size_t model) {
+    return regression::BandwidthErrors(sectionsOf(plan.testedOn(model), statistics, taxel),
+                                       statistics.full_scale, alike, regression::bandwidthGrid());
+  };
+  regression::BandwidthErrors all = errors(0);
+  for (std::size_t model = 1; model < plan.models.size(); ++model) all.add(errors(model));
+  return all;
+}
+
+}  // namespace
+
+std::vector<std::size_t> taxelsOfSearch(const std::vector<std::uint8_t>& no_model) {
+  std::vector<std::size_t> taxels;
+  for (std::size_t taxel = 0; taxel < no_model.size(); ++taxel) {
+    if (no_model[taxel] == 0) taxels.push_back(taxel);
+  }
+  const std::size_t number = std::min(taxels.size(), kTaxelsOfSearch);
+  std::vector<std::size_t> chosen;
+  for (std::size_t i = 0; i < number; ++i) chosen.push_back(taxels[i * taxels.size() / number]);
+  return chosen;
+}
+
+bool choosesBandwidth(const CalibrationOptions& options) {
+  return options.choose_bandwidth && options.regressor.name == "grnn";
+}
+
+compensation::FoldRegressors chooseRegressor(const CalibrationOptions& options,
+                                             const compensation::SchemePlan& plan,
+                                             const compensation::TrainingStatistics& statistics,
+                                             const std::vector<std::uint8_t>& no_model,
+                                             const CalibrationProgress& progress) {
+  compensation::FoldRegressors regressors{options.regressor, {}};
+  regressors.whole.forest.seed = options.seed;
+  if (!choosesBandwidth(options)) return regressors;
+  const std::vector<std::size_t> taxels = taxelsOfSearch(no_model);
+  std::vector<std::unique_ptr<regression::BandwidthErrors>> errors(taxels.size());
+  settings::StepProgress search(progress, "choosing the bandwidth", taxels.size());
+  matrix::forEachTaxel(taxels.size(), options.threads, [&](std::size_t i) {
+    errors[i] = std::make_unique<regression::BandwidthErrors>(
+        errorsOf(options.regressor.grnn, plan, statistics, taxels[i]));
+    search.partDone();
+  });
+  for (std::size_t i = 1; i < errors.size(); ++i) errors.front()->add(*errors[i]);  // always in this order
+  regressors.whole.grnn.bandwidth = errors.front()->best();
+  regressors.without.assign(statistics.sections, regressors.whole);
+  for (std::size_t section = 0; section < statistics.sections; ++section) {
+    regressors.without[section].grnn.bandwidth = errors.front()->best(section);
+  }
+  return regressors;
+}
+
+namespace {
+
+// Length scale of a GRNN on curvature: its own, if it has one, else its bandwidth in units of the standard
+// deviation of the training curvatures.
+double lengthScale(const compensation::SchemePlan& plan, const regression::RegressorOptions& regressor,
+                   const compensation::TrainingStatistics& statistics, std::size_t taxel) {
+  if (plan.curvature_scale > 0) return plan.curvature_scale;
+  std::vector<double> curvature;
+  std::vector<std::uint64_t> readings;
+  for (std::size_t k = 0; k < statistics.classes.size(); ++k) {
+    curvature.push_back(statistics.classes[k].at(taxel));
+    readings.push_back(0);
+    for (std::size_t s = 0; s < statistics.sections; ++s)
+      readings[k] += statistics.cell(taxel, k, s).samples();
+  }
+  const regression::ClassInputs inputs = compensation::classInputs(plan.scheme, curvature, {}, readings);
+  const double sigma = regression::entryOf(regressor).second_input->sigma(regressor);
+  return inputs.scale.front() > 0 ? sigma / inputs.scale.front() : INFINITY;
+}
+
+std::vector<double> lengthScales(const compensation::SchemePlan& plan,
+                                 const regression::RegressorOptions& regressor,
+                                 const compensation::TrainingStatistics& statistics) {
+  std::vector<double> scales;
+  for (std::size_t taxel = 0; taxel < statistics.taxels; ++taxel) {
+    scales.push_back(lengthScale(plan, regressor, statistics, taxel));
+  }
+  if (std::all_of(scales.begin(), scales.end(), [&](double scale) { return scale == scales.front(); })) {
+    scales.resize(1);
+  }
+  return scales;
+}
+
+}  // namespace
+
+UnseenScore learnRule(const compensation::SchemePlan& plan, unsigned threads, Calibration& calibration) {
+  const compensation::TrainingStatistics& statistics = *calibration.statistics;
+  compensation::CurvatureTables& tables = calibration.tables;
+  if (!compensation::usesCurvature(plan.scheme)) return {};
+  tables.rule.blend = compensation::blendOf(plan.scheme, calibration.regressor);
+  const std::size_t classes = tables.classes.size();
+  if (plan.models.size() < classes) tables.rule.model_of_class = plan.model_of_class;
+  if (tables.rule.blend == compensation::BlendRule::kKernel) {
+    tables.rule.length_scale = lengthScales(plan, calibration.regressor, statistics);
+  }
+  std::vector<compensation::EffectLaw> law_without;
+  if (plan.scheme == compensation::Scheme::kCurvatureMap) {
+    std::vector<compensation::TaxelEffect> effects;
+    for (std::size_t t = 0; t < statistics.taxels; ++t)
+      effects.push_back(compensation::effectOf(&tables.table(t, 0), classes));
+    tables.rule.law = compensation::learnLaw(tables.classes, effects);
+    for (std::size_t k = 0; k < classes; ++k)
+      law_without.push_back(compensation::learnLaw(tables.classes, effects, k));
+  }
+  std::vector<compensation::UnseenErrors> errors(statistics.taxels);
+  matrix::forEachTaxel(statistics.taxels, threads, [&](std::size_t taxel) {
+    if (std::isnan(tables.table(taxel, 0).pressure.front())) return;
+    errors[taxel] = compensation::leaveClassesOut(tables, taxel, statistics, law_without);
+  });
+  tables.rule.unseen = compensation::unseenDeviation(errors);
+  const compensation::UnseenSummary summary = compensation::summaryOf(errors);
+  return {summary.readings, summary.rmse_percent, summary.rmse};
+}
 
 namespace {
 

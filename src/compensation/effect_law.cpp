@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "regression/isotonic.h"
+#include "regression/monotone.h"
 
 namespace fsr::compensation {
 

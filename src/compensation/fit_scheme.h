@@ -4,14 +4,22 @@
 #include <cstdint>
 #include <vector>
 
-#include "compensation/class_input.h"
 #include "compensation/scheme_plan.h"
 #include "fsr_pressure_map/compensation/curvature_tables.h"
-#include "regression/class_readings.h"
+#include "fsr_pressure_map/compensation/scheme.h"
+#include "regression/code_samples.h"
 #include "regression/cross_validation.h"
+#include "regression/regressor.h"
 #include "regression/regressors.h"
 
 namespace fsr::compensation {
+
+/// The second input that `scheme` gives its model. Standard deviations are those of a sample, as MATLAB's
+/// zscore, and weight each class by its number of readings. `scheme` must have a second input;
+/// `bent` [classes] is used for kBinaryInput only.
+regression::ClassInputs classInputs(Scheme scheme, const std::vector<double>& curvature,
+                                    const std::vector<bool>& bent,
+                                    const std::vector<std::uint64_t>& readings);
 
 /// The models of a plan, trained on the readings of one taxel, in the plan's order. The answer for a reading
 /// of code c taken on class k is

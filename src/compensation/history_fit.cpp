@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compensation/even_line.h"
+#include "compensation/history_state.h"
 #include "statistics/signed_least_squares.h"
 
 namespace fsr::compensation {

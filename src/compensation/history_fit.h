@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "compensation/history_operators.h"
+#include "compensation/history_state.h"
 #include "fsr_pressure_map/compensation/history.h"
 
 namespace fsr::compensation {

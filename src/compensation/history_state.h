@@ -1,14 +1,96 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
-#include "compensation/even_line.h"
-#include "compensation/history_operators.h"
 #include "fsr_pressure_map/compensation/history.h"
+#include "rheology/memory.h"
 
 namespace fsr::compensation {
+
+/// Place of a number between evenly spaced knots.
+struct EvenPlace {
+  std::size_t below = 0;  ///< knot below; at most the last but one
+  double share = 0;       ///< of the knot above, 0 to 1
+};
+
+/// A line of straight pieces between evenly spaced knots, constant beyond them.
+class EvenLine {
+ public:
+  EvenLine() = default;
+  /// `knots`: two or more, evenly spaced and ascending, one for each of `values`.
+  EvenLine(const std::vector<double>& knots, std::vector<double> values)
+      : first_(knots.front()),
+        per_unit_(static_cast<double>(knots.size() - 1) / (knots.back() - knots.front())),
+        values_(std::move(values)) {}
+
+  static EvenPlace place(double x, double first, double per_unit, std::size_t knots) {
+    const double last = static_cast<double>(knots - 1);
+    const double at = std::min(std::max((x - first) * per_unit, 0.0), last);
+    const auto below = std::min(static_cast<std::size_t>(at), knots - 2);
+    return {below, at - static_cast<double>(below)};
+  }
+
+  double operator()(double x) const {
+    const EvenPlace at = place(x, first_, per_unit_, values_.size());
+    return values_[at.below] + at.share * (values_[at.below + 1] - values_[at.below]);
+  }
+
+ private:
+  double first_ = 0;
+  double per_unit_ = 0;  // knots for each unit
+  std::vector<double> values_;
+};
+
+/// Play operators and fading memories that are driven by one input. The operators are constant; the caller
+/// stores the state, one number for each operator, plays first.
+class HistoryOperators {
+ public:
+  /// `radii` [in the unit of the input], `time_constants` [s], each above 0, else std::invalid_argument.
+  HistoryOperators(std::vector<double> radii, const std::vector<double>& time_constants);
+
+  std::size_t size() const { return radii_.size() + memories_.size(); }
+  std::size_t plays() const { return radii_.size(); }
+  std::size_t memories() const { return memories_.size(); }
+
+  /// Sets the state as after a long time at the input `x`.
+  void start(double x, double* state) const {
+    for (std::size_t k = 0; k < size(); ++k) state[k] = x;
+  }
+
+  /// Sets the state for a first input `x` on a sheet that was conditioned: no input is ever below 0, and
+  /// there was one above 2 r before. Then a play is never below r, and it lies between max(r, x - r) and x +
+  /// r; it starts in the middle. At x = 0 this is x + r: the branch of unloading. Memories start as after a
+  /// long time at x.
+  void startConditioned(double x, double* state) const {
+    start(x, state);
+    for (std::size_t j = 0; j < radii_.size(); ++j)
+      state[j] = std::max(x, std::min(radii_[j] + x / 2, radii_[j] + x));
+  }
+
+  /// The steps of the memories over `duration` [s], 0 or more; `steps` has memories() entries.
+  void stepsOver(double duration, rheology::ExponentialMemory::Step* steps) const {
+    for (std::size_t k = 0; k < memories_.size(); ++k) steps[k] = memories_[k].over(duration);
+  }
+
+  /// Changes the state of the plays for an input that went to `to`.
+  void advancePlays(double to, double* state) const {
+    for (std::size_t j = 0; j < radii_.size(); ++j) state[j] = rheology::playStep(to, radii_[j], state[j]);
+  }
+
+  /// Changes the state for an input that went linearly from `from` to `to`.
+  void advance(double from, double to, const rheology::ExponentialMemory::Step* steps, double* state) const {
+    advancePlays(to, state);
+    double* const memory = state + radii_.size();
+    for (std::size_t k = 0; k < memories_.size(); ++k) memory[k] = steps[k](from, to, memory[k]);
+  }
+
+ private:
+  std::vector<double> radii_;
+  std::vector<rheology::ExponentialMemory> memories_;
+};
 
 /// The memory of every taxel of a live map. All memory is allocated by the constructor.
 ///

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "fsr_pressure_map/compensation/temperature.h"
-#include "rheology/exponential_memory.h"
+#include "rheology/memory.h"
 
 namespace fsr::compensation {
 

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dataset/cycles.h"
-#include "dataset/time_order.h"
+#include "dataset/sections.h"
 #include "settings/number_text.h"
 
 namespace fsr::dataset {

@@ -1,10 +1,9 @@
-#include "fsr_pressure_map/dataset/condition_classes.h"
+#include "dataset/sections.h"
 
 #include <algorithm>
 #include <limits>
 #include <sstream>
 
-#include "dataset/measure_coverage.h"
 #include "settings/number_text.h"
 
 namespace fsr::dataset {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <map>
 
-#include "dataset/pressure_rate.h"
+#include "dataset/paces.h"
 #include "settings/number_text.h"
-#include "statistics/median.h"
+#include "statistics/samples.h"
 
 namespace fsr::dataset {
 

@@ -5,10 +5,34 @@
 #include <string>
 #include <vector>
 
+#include "fsr_pressure_map/dataset/condition_classes.h"
 #include "fsr_pressure_map/dataset/recording.h"
 #include "fsr_pressure_map/statistics/metrics.h"
 
 namespace fsr::dataset {
+
+/// Indices of the recordings in the order of their first stamps. Recordings that begin at the same time keep
+/// their order.
+std::vector<std::size_t> inOrderOfTime(const std::vector<Recording>& recordings);
+
+/// How far the pressure must return before a peak or a valley counts.
+struct CycleOptions {
+  double share_of_range = 0.05;  ///< share of (largest - smallest pressure of the series)
+  double least = 2e3;            ///< and at least this, so that noise makes no cycle [Pa]
+};
+
+/// Fill and vent cycles of a chamber. A cycle runs from one valley to the next.
+struct Cycles {
+  std::vector<std::size_t> first;  ///< index of each cycle's first reading; first[0] = 0
+  std::vector<statistics::LoadDirection>
+      direction;  ///< of each reading; kNone where the pressure never changes
+
+  std::size_t count() const { return first.size(); }
+};
+
+/// Finds the cycles of `pressure` [Pa], which must be finite and in the order of time. A series that is empty
+/// or never changes has no cycle. A single rise or fall is one cycle.
+Cycles findCycles(const std::vector<double>& pressure, const CycleOptions& options = {});
 
 /// Section of a scan that belongs to none, because its pressure is not finite.
 constexpr std::uint32_t kNoSection = 0xffffffff;
@@ -31,5 +55,9 @@ struct Sections {
 
 /// Divides a recording, which must have a chamber pressure, into `number` sections.
 Sections divideIntoSections(const Recording& recording, std::size_t number);
+
+/// Coverage of given classes. `sections` has one entry for each recording.
+Coverage measureCoverage(const std::vector<Recording>& recordings, const ConditionClasses& classes,
+                         const std::vector<Sections>& sections);
 
 }  // namespace fsr::dataset

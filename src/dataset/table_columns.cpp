@@ -1,4 +1,4 @@
-#include "dataset/table_units.h"
+#include "dataset/table_recording.h"
 
 #include <algorithm>
 #include <cstdlib>

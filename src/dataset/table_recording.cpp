@@ -6,7 +6,6 @@
 #include <sstream>
 #include <tuple>
 
-#include "dataset/table_units.h"
 #include "dataset/time_series.h"
 
 namespace fsr::dataset {

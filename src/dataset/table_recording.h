@@ -89,4 +89,15 @@ struct TableRecording {
 /// or the time does not increase, and where the plan does not fit the table.
 TableRecording readTable(const std::string& path, const TablePlan& plan);
 
+/// Conversion of a column to SI: factor * (value + offset), or the inverse of that.
+struct TableUnit {
+  double factor = 1;
+  double offset = 0;
+  std::string quantity = {};  ///< for roles with several quantities: counts, V, S; N of a reference
+  bool inverse = false;       ///< resistance -> conductance
+};
+
+/// Throws InputError where the column's role has no such unit.
+TableUnit unitOf(const TableColumn& column);
+
 }  // namespace fsr::dataset

@@ -2,10 +2,9 @@
 
 #include <filesystem>
 
-#include "exports/csv_table.h"
 #include "exports/scan_table.h"
-#include "exports/tekscan_file.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "settings/file_kind.h"
 
 namespace fsr::exports {
 
@@ -32,6 +31,82 @@ const std::vector<ScanFormat>& scanFormats() {
       {"hdf5", "datasets with an entry for each scan (h5py, MATLAB, R)", false, opened<ScanTable>},
       {"tekscan", "ASCII as Tekscan's I-Scan and F-Scan save it (*.asf)", false, openTekscan}};
   return formats;
+}
+
+namespace {
+
+constexpr char kAbsent[] = "NA";
+
+std::string quoted(const std::string& text) {
+  if (text.empty()) return kAbsent;
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string safe = "\"";
+  for (const char c : text) {
+    if (c == '"') safe += '"';
+    safe += c == '\n' || c == '\r' ? ' ' : c;  // simple readers take each line for a row
+  }
+  return safe + '"';
+}
+
+template <typename Value>
+std::string known(const std::optional<Value>& value) {
+  return value ? std::to_string(*value) : kAbsent;
+}
+
+// The first columns of a row, which are the same for all taxels of a scan. tail() has the later ones.
+std::string head(const ScanRecord& scan, const std::string& bag) {
+  const bool mounted = scan.surface != nullptr && scan.surface->mount != 0;
+  return bag + ',' + quoted(scan.session) + ',' + (scan.surface ? quoted(scan.surface->name) : kAbsent) +
+         ',' + (mounted ? std::to_string(scan.surface->mount) : kAbsent) + ',' + known(scan.cycle) + ',' +
+         quoted(scan.event) + ',' + secondsText(scan.since_ns) + ',' + known(scan.sequence) + ',';
+}
+
+std::string tail(const ScanRecord& scan) {
+  return "," + (scan.map ? stateWord(scan.map->state) : std::string(kAbsent)) + ',' +
+         exactText(scan.chamber_pressure) + ',' + exactText(scan.temperature) + ',';
+}
+
+std::string reading(const ScanRecord& scan, std::size_t taxel) {
+  std::string text = scan.counts.empty() ? kAbsent : std::to_string(scan.counts[taxel]);
+  if (!scan.map) return text + ",NA,NA,";
+  return text + ',' + exactText(scan.map->pressure[taxel]) + ',' + exactText(scan.map->deviation[taxel]) +
+         ',';
+}
+
+std::string curvature(const ScanRecord& scan, std::size_t taxel) {
+  if (scan.surface == nullptr || !scan.surface->known()) return kAbsent;
+  return exactText(matrix::principalCurvature(scan.surface->at({taxel})));
+}
+
+}  // namespace
+
+CsvTable::CsvTable(const std::string& path) : file_(path, settings::file_kind::kTable) {
+  file_.write(std::string(kCsvHeader) + '\n');
+}
+
+void CsvTable::begin(const ExportSubject& subject) {
+  bag_ = quoted(subject.name);
+}
+
+void CsvTable::add(const ScanRecord& scan) {
+  const std::string first = head(scan, bag_);
+  const std::string last = tail(scan);
+  const std::string stamp = ',' + secondsText(scan.stamp_ns) + ',';
+  row_.clear();
+  for (std::size_t taxel = 0; taxel < scan.layout.size.taxels(); ++taxel) {
+    row_ += first;
+    row_ +=
+        std::to_string(scan.layout.row({taxel})) + ',' + std::to_string(scan.layout.column({taxel})) + ',';
+    const std::string flags = scan.map ? flagWords(scan.map->flags[taxel]) : kAbsent;
+    row_ += reading(scan, taxel) + flags;
+    row_ += last;
+    row_ += curvature(scan, taxel) + stamp + flags + '\n';
+  }
+  file_.write(row_);
+}
+
+void CsvTable::finish() {
+  file_.finish();
 }
 
 }  // namespace fsr::exports

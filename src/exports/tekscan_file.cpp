@@ -1,10 +1,10 @@
-#include "exports/tekscan_file.h"
+#include "exports/scan_formats.h"
 
 #include <array>
 #include <cmath>
 #include <ctime>
 
-#include "exports/exact_text.h"
+#include "exports/scan_record.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "settings/number_text.h"
 

@@ -5,8 +5,7 @@
 #include <optional>
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "mesh/mesh_formats.h"
-#include "mesh/mesh_words.h"
+#include "mesh/mesh_file.h"
 
 namespace fsr::mesh {
 

@@ -1,10 +1,46 @@
 #include "protocol/board_reader.h"
 
 #include <sys/resource.h>
-
+#include <exception>
 #include <utility>
 
 namespace fsr::protocol {
+namespace {
+
+// Of the exception that is being handled.
+std::string reason() {
+  try {
+    throw;
+  } catch (const std::exception& error) {
+    return error.what();
+  } catch (...) {
+    return "unknown exception";
+  }
+}
+
+}  // namespace
+
+void HandlerGuard::onScan(const PacketHeader& header, const ScanPacket& scan) {
+  run("handling a scan", [&] { handler_.onScan(header, scan); });
+}
+
+void HandlerGuard::onTransducer(const PacketHeader& header, std::int32_t counts) {
+  run("handling a transducer reading", [&] { handler_.onTransducer(header, counts); });
+}
+
+void HandlerGuard::onTemperature(const PacketHeader& header, std::int32_t millidegrees) {
+  run("handling a temperature", [&] { handler_.onTemperature(header, millidegrees); });
+}
+
+void HandlerGuard::onIdentity(const PacketHeader& header, const IdentityPacket& identity) {
+  run("handling an identity", [&] { handler_.onIdentity(header, identity); });
+}
+
+void HandlerGuard::note(const char* task) {
+  ++faults_;
+  complaint_ = std::string(task) + " failed in this program, not on the link: " + reason();
+}
+
 namespace {
 
 using SteadyClock = std::chrono::steady_clock;
@@ -193,6 +229,39 @@ void BoardReader::pause(std::optional<std::chrono::milliseconds> longest) {
   } else {
     changed_.wait(lock, woken);
   }
+}
+
+void BoardGate::doubt() {
+  doubted_ = known_;
+  waiting_ = false;
+  until_ = 0;
+}
+
+// Where the host's time went backwards, the wait ends too: no scan may be held for ever.
+BoardGate::Verdict BoardGate::scan(std::int64_t time) {
+  if (until_ != 0) {
+    if (time < until_ && time >= until_ - settling_) return Verdict::kHold;
+    until_ = 0;
+  }
+  if (!doubted_) return Verdict::kPass;
+  if (!std::exchange(waiting_, true)) since_ = time;
+  if (time >= since_ && time - since_ < patience_) return Verdict::kHold;
+  doubted_ = known_ = false;
+  gave_up_ = true;
+  return Verdict::kPass;
+}
+
+BoardGate::Board BoardGate::identity(std::string_view serial, std::int64_t time) {
+  const bool another = known_ && serial != serial_;
+  serial_ = serial;
+  known_ = true;
+  doubted_ = false;
+  if (another) until_ = time + settling_;
+  return another ? Board::kAnother : Board::kSame;
+}
+
+bool BoardGate::gaveUp() {
+  return std::exchange(gave_up_, false);
 }
 
 }  // namespace fsr::protocol

@@ -8,15 +8,50 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
 #include "fsr_pressure_map/protocol/decoder.h"
-#include "protocol/byte_source.h"
 #include "protocol/capture.h"
-#include "protocol/handler_guard.h"
+#include "protocol/serial_port.h"
 
 namespace fsr::protocol {
+
+/// Passes packets on to a handler and catches what the handler throws. A fault of the handler costs the
+/// packet at hand; it neither stops the decoder nor looks like a broken link.
+class HandlerGuard final : public PacketHandler {
+ public:
+  /// `handler` must outlive the guard.
+  explicit HandlerGuard(PacketHandler& handler) : handler_(handler) {}
+
+  void onScan(const PacketHeader& header, const ScanPacket& scan) override;
+  void onTransducer(const PacketHeader& header, std::int32_t counts) override;
+  void onTemperature(const PacketHeader& header, std::int32_t millidegrees) override;
+  void onIdentity(const PacketHeader& header, const IdentityPacket& identity) override;
+
+  /// Calls `call` and catches what it throws. `task`: what failed then, e.g. "handling a scan".
+  template <typename Call>
+  void run(const char* task, Call call) {
+    try {
+      call();
+    } catch (...) {
+      note(task);
+    }
+  }
+
+  /// How many calls have thrown.
+  std::uint64_t faults() const { return faults_; }
+  /// What the last of them threw, one sentence; empty = none threw.
+  const std::string& complaint() const { return complaint_; }
+
+ private:
+  void note(const char* task);
+
+  PacketHandler& handler_;
+  std::uint64_t faults_ = 0;
+  std::string complaint_;
+};
 
 enum class LinkPhase {
   kDisabled,  ///< by setEnabled(false): the port is closed
@@ -109,6 +144,52 @@ class BoardReader {
   std::chrono::steady_clock::time_point last_byte_;
 
   std::thread thread_;  // last: it uses everything above
+};
+
+/// Tells whether a scan is from the board that last sent its identity. Another board may be plugged into the
+/// same port. Until it sends its identity, up to a second later, its scans look like those of the first
+/// board, and the calibration would convert them to wrong pressures. So scans are held while the board is in
+/// doubt.
+///
+/// Scans of a board that never sent an identity are never held.
+class BoardGate {
+ public:
+  enum class Verdict {
+    kPass,  ///< the scan is from the known board
+    kHold,  ///< keep the scan until the board is known
+  };
+  enum class Board {
+    kSame,     ///< the scans held are its own
+    kAnother,  ///< the scans held are from a board that was unknown until now
+  };
+
+  /// `patience`: how long to wait for the identity of a board that sent one before [ns]. `settling`: how long
+  /// scans of another board are still held, so that its identity reaches other nodes before them [ns].
+  explicit BoardGate(std::int64_t patience = 3'000'000'000, std::int64_t settling = 200'000'000)
+      : patience_(patience), settling_(settling) {}
+
+  /// Call it when the port was opened or the board's clock restarted.
+  void doubt();
+
+  /// A scan arrived at `time` [host, ns].
+  Verdict scan(std::int64_t time);
+
+  /// The identity of a board arrived at `time` [host, ns].
+  Board identity(std::string_view serial, std::int64_t time);
+
+  /// True once after the patience ended without an identity: the board is unknown, and its scans pass.
+  bool gaveUp();
+
+ private:
+  std::int64_t patience_;
+  std::int64_t settling_;
+  std::string serial_;
+  bool known_ = false;  // serial_ was received
+  bool doubted_ = false;
+  bool waiting_ = false;  // since_ holds
+  bool gave_up_ = false;
+  std::int64_t since_ = 0;  // arrival of the first scan in doubt [ns]
+  std::int64_t until_ = 0;  // scans are held until then [ns]; 0 = not
 };
 
 }  // namespace fsr::protocol

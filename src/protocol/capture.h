@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "protocol/byte_source.h"
+#include "protocol/serial_port.h"
 
 namespace fsr::protocol {
 

@@ -1,11 +1,92 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
-#include "protocol/delay_envelope.h"
-#include "protocol/trimmed_delay.h"
-
 namespace fsr::protocol {
+
+/// (Host time - device time) as a constant, estimated from arrivals whose host time scatters in both
+/// directions. This is so under a simulated clock: its ticks are messages of their own, so a packet may seem
+/// late or early. The estimate is the mean of the middle eight tenths of the last 4096 arrivals that are at
+/// least 0.1 s of device time apart. A median would jump between the two values that a coarse clock gives.
+/// Both clocks are assumed to be the same one, so no drift is estimated.
+class TrimmedDelay {
+ public:
+  void clear();
+  /// Adds an arrival at device time `x` [s] whose host time is `y` [s] later.
+  void add(double x, double y);
+  /// The delay [s]. Needs one arrival.
+  double value() const { return value_; }
+
+ private:
+  static constexpr std::size_t kArrivals = 4096;
+  static constexpr double kSpacing = 0.1;  // [s]
+  static constexpr double kTrim = 0.1;     // of the arrivals, at either end
+
+  void average();
+
+  std::array<double, kArrivals> delays_{};  // [s], a ring buffer
+  std::array<double, kArrivals> sorted_{};  // work space
+  std::size_t used_ = 0;
+  std::size_t next_ = 0;
+  std::size_t fresh_ = 0;  // arrivals since the last average
+  double last_x_ = 0;
+  double value_ = 0;
+};
+
+/// (Host time - device time) as a linear function of device time, estimated from arrivals with unknown delays
+/// of zero or more. No arrival lies below the line, and the line touches the lower convex hull of the
+/// arrivals in the middle of the window. Of all lines below the points this one has the smallest sum of
+/// distances to them (Moon, Skelton and Towsley, "Estimation and removal of clock skew from network delay
+/// measurements", INFOCOM 1999). An average would depend on the load of the USB bus; the envelope depends on
+/// the few arrivals that were not delayed.
+///
+/// The window contains the lowest arrival of each of 64 slots. A slot is short at first, so that the line is
+/// good within a second, and doubles up to `max_slot`. Memory is bounded and nothing is allocated.
+class DelayEnvelope {
+ public:
+  /// `max_slot` [s]: the window is 64 times as long. `max_drift`: largest accepted difference of the clocks'
+  /// rates (ratio).
+  DelayEnvelope(double max_slot, double max_drift) : max_slot_(max_slot), max_drift_(max_drift) {}
+
+  void clear();
+
+  /// Adds an arrival at device time `x` [s] whose host time is `y` [s] later. One that is older than the
+  /// newest slot is ignored.
+  void add(double x, double y);
+
+  bool empty() const { return used_ == 0; }
+  /// The line at device time `x` [s]. Needs one arrival.
+  double at(double x) const { return offset_ + drift_ * x; }
+  /// Its slope: how much faster the host's clock runs than the device's (ratio).
+  double drift() const { return drift_; }
+
+ private:
+  static constexpr std::size_t kSlots = 64;
+  static constexpr double kFirstSlot = 1.0 / 16;  // [s]
+
+  struct Arrival {
+    double x = 0;  // device time [s]
+    double y = 0;  // host - device [s]
+  };
+
+  double height(const Arrival& arrival) const { return arrival.y - drift_ * arrival.x; }
+  void openSlot(double x);
+  void mergePairs();
+  std::size_t lowerHull(std::array<Arrival, kSlots>& hull) const;
+  double slopeInTheMiddle() const;
+  void fit();
+
+  double max_slot_;
+  double max_drift_;
+  std::array<Arrival, kSlots> lowest_{};  // of each slot, in order of time
+  std::size_t used_ = 0;
+  double slot_ = kFirstSlot;  // length of a slot [s]
+  double slot_end_ = 0;       // of the last one [s]
+  double offset_ = 0;         // [s]
+  double drift_ = 0;
+};
 
 /// Options of the clock.
 struct DeviceClockOptions {

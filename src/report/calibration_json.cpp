@@ -1,4 +1,4 @@
-#include "regression/option_names.h"
+#include "regression/regressors.h"
 #include "report/budget_report.h"
 #include "report/calibration_report.h"
 #include "report/good_for.h"

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "fsr_pressure_map/discrepancy/discrepancy.h"
-#include "simulation/simulation_text.h"
+#include "simulation/settings_text.h"
 
 namespace fsr::report {
 

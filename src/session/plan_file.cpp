@@ -7,7 +7,7 @@
 #include "matrix/surface_file.h"
 #include "settings/number_text.h"
 #include "settings/yaml_text.h"
-#include "simulation/read_settings.h"
+#include "simulation/settings_text.h"
 
 namespace fsr::session {
 

@@ -18,7 +18,7 @@
 #include "session/plan_steps.h"
 #include "settings/number_text.h"
 #include "simulation/effects/effect_library.h"
-#include "simulation/read_settings.h"
+#include "simulation/settings_text.h"
 
 namespace fsr::session {
 

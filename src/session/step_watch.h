@@ -5,8 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "dataset/reject_reason.h"
-#include "dataset/unsound/unsound_spans.h"
+#include "dataset/unsound_spans.h"
 #include "session/plan_steps.h"
 
 namespace fsr::session {

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include "simulation/effect.h"
-#include "simulation/effects/enabled_effects.h"
+#include "simulation/effects/effect_library.h"
 
 namespace fsr::simulation {
 

@@ -6,8 +6,7 @@
 #include <optional>
 
 #include "fsr_pressure_map/dataset/recording.h"
-#include "simulation/reference_channel.h"
-#include "simulation/rig_state.h"
+#include "simulation/rig.h"
 #include "simulation/sensor_chain.h"
 
 namespace fsr::simulation {

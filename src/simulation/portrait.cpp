@@ -5,11 +5,9 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "fsr_pressure_map/simulation/chamber.h"
-#include "simulation/effect.h"
 #include "simulation/effects/effect_library.h"
-#include "simulation/effects/enabled_effects.h"
 #include "simulation/pressure_profile.h"
-#include "simulation/reference_channel.h"
+#include "simulation/rig.h"
 #include "simulation/sensor_chain.h"
 
 namespace fsr::simulation {

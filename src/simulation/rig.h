@@ -1,16 +1,75 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "fsr_pressure_map/simulation/chamber.h"
-#include "simulation/chamber_gas.h"
-#include "simulation/effect.h"
-#include "simulation/reference_channel.h"
-#include "simulation/rig_state.h"
+#include "fsr_pressure_map/simulation/simulation_settings.h"
+#include "rheology/memory.h"
+#include "settings/settings.h"
+#include "simulation/effects/effect_library.h"
 #include "simulation/sensor_chain.h"
 
 namespace fsr::simulation {
+
+/// The gas in the chamber. Its temperature depends on the history of the pressure.
+class ChamberGas {
+ public:
+  explicit ChamberGas(const ChamberClimate& climate);
+
+  /// Temperature at `time` [s], when the chamber is at the gauge pressure `pressure` [Pa]. The pressure is
+  /// taken to be linear since the previous call. Times must ascend.
+  double temperature(double time, double pressure);  // [degree Celsius]
+
+  /// Its state, for saving and restoring.
+  std::vector<double>& state() { return state_; }
+  const std::vector<double>& state() const { return state_; }
+
+ private:
+  double room(double time) const;
+
+  ChamberClimate climate_;
+  rheology::ExponentialMemory cooling_;
+  std::vector<double> state_;
+};
+
+/// The chamber's pressure transducer. Input: the gauge pressure of the chamber. Output: the pressure that a
+/// recording contains, after the effects of the stage kReference and the transducer's converter.
+class ReferenceChannel {
+ public:
+  /// Throws InputError.
+  explicit ReferenceChannel(const SimulationSettings& settings);
+
+  /// What the transducer shows before its converter [Pa].
+  double indicated(double pressure) const;
+  /// Inverse of indicated(): the chamber's pressure when the transducer shows `indicated` [Pa].
+  double truePressure(double indicated) const;
+
+  /// What its converter makes of the chamber's pressure [Pa].
+  std::int32_t counts(double pressure) const { return transducer_.counts(indicated(pressure)); }
+
+ private:
+  Transducer transducer_;
+  std::vector<std::unique_ptr<Effect>> effects_;
+};
+
+/// The state of a simulated rig between two runs.
+struct RigState {
+  std::int64_t origin_ns = 0;  ///< date of rig time 0 [ns since 1970]
+  double time = 0;             ///< rig time at which it was left [s]
+  std::uint64_t scans = 0;     ///< number of scans so far; selects the noise
+  std::uint32_t mount = 0;     ///< number of the last mount
+  std::string surface;         ///< of that mount
+  std::vector<double> gas;     ///< ChamberGas::state(); empty = at rest
+  ChainState sheet;
+};
+
+/// The state as a YAML file; readRigState() reads back the same, bit for bit.
+std::string stateText(const RigState& state);
+/// Throws InputError. Whether the state fits a rig is checked when it is restored.
+RigState readRigState(const settings::Settings& settings);
 
 /// Matrix, transducer and thermometer in one chamber. Times are rig time [s] and must ascend for each of the
 /// three. The pressure is evaluated at the time itself and during the scan round it.

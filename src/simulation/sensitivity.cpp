@@ -5,7 +5,6 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "simulation/effects/effect_library.h"
-#include "simulation/effects/enabled_effects.h"
 
 namespace fsr::simulation {
 

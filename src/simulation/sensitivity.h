@@ -3,8 +3,8 @@
 #include <memory>
 #include <string>
 
-#include "simulation/effect.h"
-#include "simulation/reference_channel.h"
+#include "simulation/effects/effect_library.h"
+#include "simulation/rig.h"
 #include "simulation/sensor_chain.h"
 
 namespace fsr::simulation {

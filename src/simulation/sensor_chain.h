@@ -8,7 +8,7 @@
 
 #include "fsr_pressure_map/matrix/curvature.h"
 #include "fsr_pressure_map/simulation/simulation_settings.h"
-#include "simulation/effect.h"
+#include "simulation/effects/effect_library.h"
 #include "simulation/taxel_curves.h"
 
 namespace fsr::simulation {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "dataset/recording_builder.h"
-#include "simulation/effect.h"
+#include "simulation/effects/effect_library.h"
 #include "simulation/pressure_profile.h"
 
 namespace fsr::simulation {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "fsr_pressure_map/statistics/metrics.h"
-#include "statistics/running_moments.h"
+#include "statistics/samples.h"
 
 namespace fsr::statistics {
 

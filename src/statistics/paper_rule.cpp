@@ -1,19 +1,30 @@
 #include "statistics/paper_rule.h"
 
-#include <string>
-#include <vector>
+#include <algorithm>
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "statistics/friedman.h"
-#include "statistics/multiple_comparisons.h"
-#include "statistics/paired_sign_test.h"
-#include "statistics/paired_t.h"
-#include "statistics/repeated_measures_anova.h"
-#include "statistics/shapiro_wilk.h"
-#include "statistics/triples_test.h"
-#include "statistics/wilcoxon_signed_rank.h"
+#include "statistics/repeated_measures.h"
 
 namespace fsr::statistics {
+
+namespace {
+
+void requireProbabilities(const std::vector<double>& p) {
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    if (p[i] >= 0 && p[i] <= 1) continue;
+    throw settings::InputError("correction for multiple tests: p value " + std::to_string(i + 1) + " is " +
+                               std::to_string(p[i]) + "; it must lie between 0 and 1");
+  }
+}
+
+}  // namespace
+
+std::vector<double> bonferroni(const std::vector<double>& p) {
+  requireProbabilities(p);
+  std::vector<double> adjusted;
+  for (const double value : p) adjusted.push_back(std::min(1.0, static_cast<double>(p.size()) * value));
+  return adjusted;
+}
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "study/curvature_error.h"
+#include "study/hold_out.h"
 
 #include <algorithm>
 #include <cmath>

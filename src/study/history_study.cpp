@@ -1,10 +1,10 @@
-#include "study/history_study.h"
+#include "study/hold_out.h"
 
 #include <cmath>
 #include <limits>
 #include <memory>
 
-#include "dataset/row_spool.h"
+#include "dataset/unnamed_file.h"
 #include "matrix/for_each_taxel.h"
 
 namespace fsr::study {

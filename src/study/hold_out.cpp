@@ -3,10 +3,9 @@
 #include <optional>
 #include <sstream>
 
-#include "study/curvature_error.h"
-#include "study/history_study.h"
-#include "study/paper_numbers.h"
-#include "study/study_context.h"
+#include "study/hold_out.h"
+#include "study/paper.h"
+#include "study/study_pieces.h"
 #include "study/study_score.h"
 
 namespace fsr::study {

@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "statistics/random_stream.h"
-#include "study/study_context.h"
+#include "study/study_pieces.h"
 #include "study/study_score.h"
 
 namespace fsr::study {

@@ -6,7 +6,7 @@
 
 #include "calibration/history_training.h"
 #include "calibration/sources.h"
-#include "study/study_context.h"
+#include "study/study_pieces.h"
 
 namespace fsr::study {
 

@@ -10,7 +10,7 @@
 #include "fsr_pressure_map/statistics/metrics.h"
 #include "statistics/bootstrap.h"
 #include "statistics/paper_rule.h"
-#include "study/decisions.h"
+#include "study/paper.h"
 #include "study/study_plan.h"
 
 namespace fsr::study {

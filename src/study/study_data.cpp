@@ -3,14 +3,45 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <tuple>
 
 #include "calibration/sources.h"
 #include "dataset/count_readers.h"
 #include "fsr_pressure_map/calibration/calibration.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "statistics/random_stream.h"
 
 namespace fsr::study {
+
+void ScanList::add(const ScanRun& run) {
+  const bool goes_on =
+      !runs_.empty() && runs_.back().recording == run.recording && runs_.back().end == run.begin;
+  if (goes_on)
+    runs_.back().end = run.end;
+  else
+    runs_.push_back(run);
+  scans_ += run.scans();
+}
+
+ScanList ScanList::picked(const std::vector<std::uint32_t>& places) const {
+  ScanList picked;
+  auto run = runs_.begin();
+  std::size_t before = 0;  // scans of the list before the run
+  for (const std::uint32_t place : places) {
+    while (place >= before + run->scans()) before += (run++)->scans();
+    picked.add(ScanPlace{run->recording, static_cast<std::uint32_t>(run->begin + (place - before))});
+  }
+  return picked;
+}
+
+bool operator==(const ScanList& a, const ScanList& b) {
+  return std::equal(a.runs().begin(), a.runs().end(), b.runs().begin(), b.runs().end(),
+                    [](const ScanRun& one, const ScanRun& other) {
+                      return one.recording == other.recording && one.begin == other.begin &&
+                             one.end == other.end;
+                    });
+}
 
 namespace {
 
@@ -188,6 +219,53 @@ Grouping byHalfProtocol(const StudyData& data) {
   return grouped(data, 2 * data.protocols.names.size(), [&](const ScanPlace& scan) -> std::size_t {
     return 2 * std::size_t{data.protocol(scan)} + data.cycle(scan) % 2;
   });
+}
+
+namespace {
+
+// Draws `kept` of the indices 0 to scans - 1 without replacement (Fisher and Yates); ascending.
+std::vector<std::uint32_t> drawn(std::size_t scans, std::size_t kept,
+                                 const statistics::RandomStream& stream) {
+  std::vector<std::uint32_t> places(scans);
+  std::iota(places.begin(), places.end(), 0u);
+  for (std::size_t i = 0; i < kept; ++i) {
+    const auto left = static_cast<double>(scans - i);
+    std::swap(places[i], places[i + static_cast<std::size_t>(stream.uniform(i) * left)]);
+  }
+  places.resize(kept);
+  std::sort(places.begin(), places.end());
+  return places;
+}
+
+std::vector<std::uint32_t> placesKept(std::size_t scans, std::size_t one_of, DownSampling rule,
+                                      const statistics::RandomStream& stream) {
+  const std::size_t kept = (scans + one_of - 1) / one_of;
+  if (rule == DownSampling::kRandom) return drawn(scans, kept, stream);
+  std::vector<std::uint32_t> places(kept);
+  const auto begin = static_cast<std::size_t>(stream.uniform(0) * static_cast<double>(scans - kept + 1));
+  for (std::size_t i = 0; i < kept; ++i) {
+    places[i] = static_cast<std::uint32_t>(rule == DownSampling::kEveryNth ? i * one_of : begin + i);
+  }
+  return places;
+}
+
+}  // namespace
+
+Grouping downSampled(const Grouping& whole, const std::vector<std::size_t>& one_of, DownSampling rule,
+                     std::uint64_t seed) {
+  Grouping kept{whole.groups, {}};
+  for (std::size_t c = 0; c < whole.scans.size(); ++c) {
+    std::vector<ScanList> groups(whole.groups);
+    for (std::size_t g = 0; g < whole.groups && one_of[c] > 0; ++g) {
+      const ScanList& all = whole.scans[c][g];
+      const statistics::RandomStream stream =
+          statistics::randomStream(seed, "down_sampling_" + std::to_string(one_of[c]), c * whole.groups + g);
+      if (all.empty()) continue;
+      groups[g] = one_of[c] == 1 ? all : all.picked(placesKept(all.size(), one_of[c], rule, stream));
+    }
+    kept.scans.push_back(std::move(groups));
+  }
+  return kept;
 }
 
 }  // namespace fsr::study

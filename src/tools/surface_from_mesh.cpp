@@ -8,7 +8,6 @@
 #include "fsr_pressure_map/view/bent_sheet.h"
 #include "mesh/mesh_file.h"
 #include "mesh/mesh_surface.h"
-#include "mesh/mesh_surface_text.h"
 #include "settings/command_line.h"
 #include "settings/number_text.h"
 #include "settings/replace_file.h"

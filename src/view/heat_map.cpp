@@ -5,7 +5,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "view/legend.h"
-#include "view/smooth_layer.h"
+#include "view/sheet_mesh.h"
 #include "view/taxel_look.h"
 
 namespace fsr::view {

@@ -10,8 +10,8 @@
 
 #include "fsr_pressure_map/calibration/calibration.h"
 #include "fsr_pressure_map/simulation/simulate.h"
-#include "simulation/read_settings.h"
-#include "statistics/running_moments.h"
+#include "simulation/settings_text.h"
+#include "statistics/samples.h"
 
 namespace {
 

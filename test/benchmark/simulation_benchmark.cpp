@@ -7,8 +7,8 @@
 #include "simulation/effects/effect_library.h"
 #include "simulation/portrait.h"
 #include "simulation/pressure_profile.h"
-#include "simulation/read_settings.h"
 #include "simulation/sensitivity.h"
+#include "simulation/settings_text.h"
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "fsr_pressure_map/calibration/calibrator.h"
-#include "protocol/board_gate.h"
+#include "protocol/board_reader.h"
 #include "protocol/packet_stamper.h"
 #include "protocol/wire_decoder.h"
 #include "support/allocation_guard.h"

@@ -17,7 +17,7 @@
 #include "fsr_pressure_map/calibration/calibrator.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "fsr_pressure_map/simulation/simulate.h"
-#include "simulation/read_settings.h"
+#include "simulation/settings_text.h"
 #include "support/simulated_rig.h"
 
 namespace fsr::calibration {

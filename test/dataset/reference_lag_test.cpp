@@ -1,4 +1,4 @@
-#include "dataset/reference_lag.h"
+#include "dataset/reference_errors.h"
 
 #include <gtest/gtest.h>
 

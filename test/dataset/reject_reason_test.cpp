@@ -1,4 +1,4 @@
-#include "dataset/reject_reason.h"
+#include "dataset/unsound_spans.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,6 @@
 #include <random>
 #include <set>
 
-#include "dataset/cycles.h"
 #include "support/synthetic_recording.h"
 
 namespace fsr::dataset {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "planted.h"
-#include "simulation/read_settings.h"
+#include "simulation/settings_text.h"
 #include "support/dummy_effect.h"
 
 namespace fsr::discrepancy {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "discrepancy/fit/base_fit.h"
+#include "discrepancy/fit/parameter_fit.h"
 #include "discrepancy/planted.h"
 #include "discrepancy/prove/freeze.h"
 
@@ -13,26 +13,13 @@ const char* const kLoop = "  hysteresis: {loop_width: 0.05}\n";
 const char* const kMemory = "  creep: {per_decade: 0.03, slowest: 100}\n";
 
 // Another protocol and other noise than planted::kTwoSpeeds.
-const char* const kNewProtocol = R"(
-simulation: planted
-seed: 29
-matrix: {rows: 3, columns: 4}
-board: {scan_rate: 2.5, transducer_rate: 2.5}
-program:
+const std::string kNewProtocol = planted::rig(R"(program:
   - cycles: {peak: 500000, rate: 25000, dwell_peak: 20, cycles: 3}
   - hold: {pressure: 300000, rate: 12000, duration: 40}
   - rest: {rate: 12000, duration: 30}
   - cycles: {peak: 600000, rate: 12000, dwell_peak: 2, cycles: 3}
-session:
-  - {surface: flat, flat: true}
-  - {surface: cylinder_5cm, cylinder: {radius: 0.05, axis: y}, pause: 300}
-effects:
-  static_curve: {conductance: 3.2e-4, exponent: 0.85, conductance_scatter: 0.05}
-  bending_preload: {amplitude: 30000}
-  bending_gain: {change: -0.15}
-  white_noise: {absolute: 8}
-  converter: {}
-)";
+)",
+                                              planted::kTwoSurfaces, "{absolute: 8}", 29);
 
 struct Frozen {
   Prediction prediction;

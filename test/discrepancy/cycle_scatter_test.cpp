@@ -1,6 +1,6 @@
 // Scatter between cycles is a finding of its own: its size, its interval and its cost at the map.
 
-#include "discrepancy/fit/cycle_scatter.h"
+#include "discrepancy/fit/cycle_noise.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,6 @@
 // The gap that a report states is that of its two simulations, driven through the recordings.
 #include "discrepancy/prove/driven_gap.h"
+#include "discrepancy/prove/recompute_gap.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +8,7 @@
 #include <cmath>
 
 #include "discrepancy/planted.h"
-#include "discrepancy/prove/recompute_gap.h"
-#include "simulation/simulation_text.h"
+#include "simulation/settings_text.h"
 #include "simulation/taxel_curves.h"
 
 namespace fsr::discrepancy {

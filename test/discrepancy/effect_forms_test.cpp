@@ -16,28 +16,15 @@ namespace fsr::discrepancy {
 namespace {
 
 // Two speeds and dwells on two surfaces. White noise: config/simulation/demo_noisy.yaml.
-const char* const kNoisyRig = R"(
-simulation: planted
-seed: 7
-matrix: {rows: 3, columns: 4}
-board: {scan_rate: 2.5, transducer_rate: 2.5}
-program:
+const std::string kNoisyRig = planted::rig(R"(program:
   - hold: {pressure: 310000, rate: 40000, duration: 30}
   - rest: {rate: 40000, duration: 20}
   - cycles: {peak: 620000, rate: 40000, dwell_peak: 8, cycles: 5}
   - cycles: {peak: 620000, rate: 8000, dwell_peak: 30, cycles: 2}
   - cycles: {peak: 200000, rate: 20000, dwell_peak: 4, cycles: 4}
   - cycles: {peak: 620000, rate: 40000, dwell_peak: 8, cycles: 3}
-session:
-  - {surface: flat, flat: true}
-  - {surface: cylinder_5cm, cylinder: {radius: 0.05, axis: y}, pause: 300}
-effects:
-  static_curve: {conductance: 3.2e-4, exponent: 0.85, conductance_scatter: 0.05}
-  bending_preload: {amplitude: 30000}
-  bending_gain: {change: -0.15}
-  white_noise: {absolute: 70, relative: 0.01}
-  converter: {}
-)";
+)",
+                                           planted::kTwoSurfaces, "{absolute: 70, relative: 0.01}");
 
 // A room that warms and cools.
 const char* const kWarmingRoom =

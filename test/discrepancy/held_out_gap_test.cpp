@@ -6,8 +6,7 @@
 #include <cmath>
 
 #include "discrepancy/planted.h"
-#include "discrepancy/prove/costs_in_use.h"
-#include "discrepancy/samples/held_out.h"
+#include "discrepancy/prove/report_gap.h"
 #include "discrepancy/samples/views.h"
 
 namespace fsr::discrepancy {

@@ -1,4 +1,4 @@
-#include "discrepancy/fit/penalised_spline.h"
+#include "discrepancy/fit/taxel_curves_fit.h"
 
 #include <gtest/gtest.h>
 

@@ -7,33 +7,40 @@
 
 #include "discrepancy/samples/measured.h"
 #include "simulation/driven_rig.h"
-#include "simulation/read_settings.h"
 #include "simulation/session.h"
+#include "simulation/settings_text.h"
 
 namespace fsr::discrepancy::planted {
 
-/// A small rig on three surfaces. It runs at two speeds and with dwells. A scan every 0.4 s keeps the test
-/// fast.
-inline const char* const kTwoSpeeds = R"(
-simulation: planted
-seed: 7
-matrix: {rows: 3, columns: 4}
-board: {scan_rate: 2.5, transducer_rate: 2.5}
-program:
-  - cycles: {peak: 620000, rate: 40000, dwell_peak: 8, cycles: 5}
-  - cycles: {peak: 620000, rate: 8000, dwell_peak: 8, cycles: 3}
-  - cycles: {peak: 620000, rate: 40000, dwell_peak: 8, cycles: 3}
-session:
-  - {surface: flat, flat: true}
-  - {surface: cylinder_9cm, cylinder: {radius: 0.09, axis: y}, pause: 300}
-  - {surface: cylinder_5cm, cylinder: {radius: 0.05, axis: y}, pause: 300}
-effects:
+/// A rig of twelve taxels as YAML. `chamber`: its program or its cycles. It ends with its effects, to which a
+/// test adds more. A scan every 0.4 s keeps the tests fast.
+inline std::string rig(const std::string& chamber, const std::string& session,
+                       const std::string& noise = "{absolute: 8}", int seed = 7) {
+  return "simulation: planted\nseed: " + std::to_string(seed) +
+         "\nmatrix: {rows: 3, columns: 4}\nboard: {scan_rate: 2.5, transducer_rate: 2.5}\n" + chamber +
+         "session:\n" + session + R"(effects:
   static_curve: {conductance: 3.2e-4, exponent: 0.85, conductance_scatter: 0.05}
   bending_preload: {amplitude: 30000}
   bending_gain: {change: -0.15}
-  white_noise: {absolute: 8}
   converter: {}
-)";
+  white_noise: )" +
+         noise + "\n";
+}
+
+inline const std::string kFlat = "  - {surface: flat, flat: true}\n";
+inline const std::string kTwoSurfaces =
+    kFlat + "  - {surface: cylinder_5cm, cylinder: {radius: 0.05, axis: y}, pause: 300}\n";
+
+/// A small rig on three surfaces. It runs at two speeds and with dwells.
+inline const std::string kTwoSpeeds = rig(R"(program:
+  - cycles: {peak: 620000, rate: 40000, dwell_peak: 8, cycles: 5}
+  - cycles: {peak: 620000, rate: 8000, dwell_peak: 8, cycles: 3}
+  - cycles: {peak: 620000, rate: 40000, dwell_peak: 8, cycles: 3}
+)",
+                                          R"(  - {surface: flat, flat: true}
+  - {surface: cylinder_9cm, cylinder: {radius: 0.09, axis: y}, pause: 300}
+  - {surface: cylinder_5cm, cylinder: {radius: 0.05, axis: y}, pause: 300}
+)");
 
 /// The same rig with another matrix. In twelve taxels a line of three is too short to tell from three taxels.
 inline std::string withMatrix(int rows, int columns) {
@@ -50,43 +57,12 @@ inline std::string withProgram(const std::string& program) {
   return rig.replace(first, last - first, program);
 }
 
-/// The same rig with the cycles of the paper on one surface.
-inline const char* const kOneSurface = R"(
-simulation: planted
-seed: 7
-matrix: {rows: 3, columns: 4}
-board: {scan_rate: 2.5, transducer_rate: 2.5}
-chamber: {cycles: 16}
-session:
-  - {surface: flat, flat: true}
-effects:
-  static_curve: {conductance: 3.2e-4, exponent: 0.85, conductance_scatter: 0.05}
-  bending_preload: {amplitude: 30000}
-  bending_gain: {change: -0.15}
-  white_noise: {absolute: 8}
-  converter: {}
-)";
-
-/// The cycles of the paper on two surfaces: one speed, no dwells.
-inline const char* const kOneSpeed = R"(
-simulation: planted
-seed: 7
-matrix: {rows: 3, columns: 4}
-board: {scan_rate: 2.5, transducer_rate: 2.5}
-chamber: {cycles: 8}
-session:
-  - {surface: flat, flat: true}
-  - {surface: cylinder_5cm, cylinder: {radius: 0.05, axis: y}, pause: 300}
-effects:
-  static_curve: {conductance: 3.2e-4, exponent: 0.85, conductance_scatter: 0.05}
-  bending_preload: {amplitude: 30000}
-  bending_gain: {change: -0.15}
-  white_noise: {absolute: 8}
-  converter: {}
-)";
+/// The cycles of the paper on one surface, and on two: one speed, no dwells.
+inline const std::string kOneSurface = rig("chamber: {cycles: 16}\n", kFlat);
+inline const std::string kOneSpeed = rig("chamber: {cycles: 8}\n", kTwoSurfaces);
 
 /// Four taxels that are fast to simulate. The caller appends the session.
-inline const char* const kFourTaxels = R"(
+inline const std::string kFourTaxels = R"(
 simulation: rig
 seed: 7
 matrix: {rows: 2, columns: 2}
@@ -99,9 +75,6 @@ effects:
   converter: {}
 session:
 )";
-inline const std::string kTwoSurfaces =
-    "  - {surface: flat, flat: true}\n"
-    "  - {surface: cylinder_5cm, cylinder: {radius: 0.05, axis: y}, pause: 300}\n";
 
 inline simulation::SimulationSettings simulation(const std::string& text, const std::string& more = "") {
   return simulation::readSimulation(settings::Settings::fromText(text + more, "planted.yaml"));

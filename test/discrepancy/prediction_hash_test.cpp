@@ -1,14 +1,13 @@
 // The hash of a prediction covers everything that confirm() uses and that the files beside it contain.
 
-#include "discrepancy/prove/prediction_hash.h"
+#include "discrepancy/prove/freeze.h"
 
 #include <gtest/gtest.h>
 
 #include <functional>
 
 #include "planted.h"
-#include "simulation/read_settings.h"
-#include "simulation/simulation_text.h"
+#include "simulation/settings_text.h"
 #include "simulation/taxel_curves.h"
 
 namespace fsr::discrepancy {

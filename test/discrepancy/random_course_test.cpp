@@ -1,6 +1,6 @@
 // A random walk is no curve: it is named by its likelihood, located, and reproduced in its statistics.
 
-#include "discrepancy/fit/random_courses.h"
+#include "discrepancy/fit/candidate_terms.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 
 #include "discrepancy/prove/recompute_gap.h"
 #include "simulation/driven_rig.h"
-#include "simulation/effects/enabled_effects.h"
+#include "simulation/effects/effect_library.h"
 #include "simulation/taxel_curves.h"
 #include "support/source_dir.h"
 #include "support/synthetic_recording.h"

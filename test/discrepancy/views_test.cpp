@@ -7,7 +7,6 @@
 #include <type_traits>
 
 #include "discrepancy/planted.h"
-#include "discrepancy/samples/held_out.h"
 
 namespace fsr::discrepancy {
 namespace {

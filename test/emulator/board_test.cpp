@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "protocol/wire_decoder.h"
-#include "simulation/read_settings.h"
+#include "simulation/settings_text.h"
 #include "support/packet_recorder.h"
 #include "support/source_dir.h"
 

@@ -1,4 +1,4 @@
-#include "exports/csv_table.h"
+#include "exports/scan_formats.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "exports/tekscan_file.h"
+#include "exports/scan_formats.h"
 
 #include <gtest/gtest.h>
 

@@ -16,7 +16,6 @@
 #include "emulator/emulator.h"
 #include "fsr_pressure_map/calibration/calibrator.h"
 #include "fsr_pressure_map/protocol/wire.h"
-#include "protocol/board_gate.h"
 #include "protocol/board_reader.h"
 #include "protocol/packet_stamper.h"
 #include "protocol/serial_port.h"

@@ -6,7 +6,7 @@
 
 #include "fsr_pressure_map/health/taxel_watch.h"
 #include "fsr_pressure_map/simulation/simulation_settings.h"
-#include "simulation/effects/enabled_effects.h"
+#include "simulation/effects/effect_library.h"
 #include "simulation/sensor_chain.h"
 #include "support/source_dir.h"
 

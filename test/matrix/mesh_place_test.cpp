@@ -1,4 +1,4 @@
-#include "matrix/mesh_place.h"
+#include "matrix/surface_file.h"
 
 #include <unistd.h>
 
@@ -9,7 +9,6 @@
 #include <fstream>
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "matrix/surface_file.h"
 
 namespace fsr::matrix {
 namespace {

@@ -10,11 +10,9 @@
 #include <string>
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "matrix/mesh_place.h"
 #include "matrix/surface_file.h"
 #include "mesh/example_meshes.h"
 #include "mesh/mesh_surface.h"
-#include "mesh/mesh_surface_text.h"
 #include "support/program_output.h"
 
 namespace fsr::mesh {

@@ -1,4 +1,4 @@
-#include "mesh/mesh_formats.h"
+#include "mesh/mesh_file.h"
 
 #include <gtest/gtest.h>
 

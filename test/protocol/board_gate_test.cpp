@@ -1,4 +1,4 @@
-#include "protocol/board_gate.h"
+#include "protocol/board_reader.h"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,6 @@
 #include <random>
 
 #include "regression/grnn/grnn.h"
-#include "regression/held_out_deviation.h"
 
 namespace fsr::regression {
 namespace {

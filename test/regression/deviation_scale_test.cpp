@@ -1,4 +1,4 @@
-#include "regression/deviation_scale.h"
+#include "regression/cross_validation.h"
 
 #include <gtest/gtest.h>
 

@@ -9,8 +9,6 @@
 #include <limits>
 #include <random>
 
-#include "regression/forest/best_cut.h"
-
 namespace fsr::regression {
 namespace {
 

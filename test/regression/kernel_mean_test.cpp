@@ -9,7 +9,7 @@
 #include <random>
 #include <utility>
 
-#include "regression/grnn/coarse_grid.h"
+#include "regression/grnn/gaussian_sums.h"
 
 namespace fsr::regression {
 namespace {

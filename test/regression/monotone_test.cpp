@@ -8,7 +8,6 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "regression/grnn/grnn.h"
-#include "regression/isotonic.h"
 
 namespace fsr::regression {
 namespace {

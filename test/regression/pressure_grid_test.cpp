@@ -1,4 +1,4 @@
-#include "regression/pressure_grid.h"
+#include "regression/grnn/weighted_codes.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "rheology/exponential_memory.h"
+#include "rheology/memory.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "rheology/play_operator.h"
+#include "rheology/memory.h"
 
 #include <gtest/gtest.h>
 

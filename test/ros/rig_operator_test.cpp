@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <functional>
 
-#include "simulation/read_settings.h"
+#include "simulation/settings_text.h"
 #include "support/board_listener.h"
 
 namespace {

@@ -19,7 +19,7 @@
 #include <sstream>
 
 #include "compensation/training_statistics.h"
-#include "dataset/reject_reason.h"
+#include "dataset/unsound_spans.h"
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "ros/bags/bag_writer.h"
 #include "ros/bags/resource_path.h"

@@ -15,7 +15,7 @@
 #include "protocol/wire_decoder.h"
 #include "session/conductor.h"
 #include "session/plan_file.h"
-#include "simulation/read_settings.h"
+#include "simulation/settings_text.h"
 #include "support/source_dir.h"
 
 namespace {

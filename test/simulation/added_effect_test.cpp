@@ -4,8 +4,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "fsr_pressure_map/simulation/simulate.h"
-#include "simulation/read_settings.h"
-#include "simulation/simulation_text.h"
+#include "simulation/settings_text.h"
 #include "support/dummy_effect.h"
 
 namespace fsr::simulation {

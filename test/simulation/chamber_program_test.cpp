@@ -1,6 +1,6 @@
 #include "fsr_pressure_map/simulation/chamber.h"
 #include "simulation/pressure_profile.h"
-#include "simulation/read_settings.h"
+#include "simulation/settings_text.h"
 
 #include <gtest/gtest.h>
 

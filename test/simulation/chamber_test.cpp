@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "simulation/pressure_profile.h"
-#include "simulation/read_settings.h"
+#include "simulation/settings_text.h"
 
 namespace {
 

@@ -2,9 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "simulation/read_settings.h"
 #include "simulation/session.h"
-#include "simulation/simulation_text.h"
+#include "simulation/settings_text.h"
 
 namespace fsr::simulation {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "simulation/read_settings.h"
 #include "simulation/session.h"
+#include "simulation/settings_text.h"
 #include "support/simulated_rig.h"
 
 namespace {

@@ -11,7 +11,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "simulation/pressure_profile.h"
-#include "simulation/reference_channel.h"
+#include "simulation/rig.h"
 #include "simulation/sensitivity.h"
 #include "support/allocation_guard.h"
 #include "support/simulated_rig.h"

@@ -1,10 +1,10 @@
-#include "simulation/rig_state.h"
+#include "simulation/rig.h"
 
 #include <gtest/gtest.h>
 
 #include "simulation/driven_rig.h"
-#include "simulation/read_settings.h"
 #include "simulation/session.h"
+#include "simulation/settings_text.h"
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "simulation/read_settings.h"
+#include "simulation/settings_text.h"
 #include "support/simulated_rig.h"
 #include "support/source_dir.h"
 

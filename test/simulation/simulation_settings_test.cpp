@@ -9,9 +9,8 @@
 #include "settings/yaml_text.h"
 #include "simulation/effects/effect_library.h"
 #include "simulation/pressure_profile.h"
-#include "simulation/read_settings.h"
 #include "simulation/sensor_chain.h"
-#include "simulation/simulation_text.h"
+#include "simulation/settings_text.h"
 #include "support/source_dir.h"
 
 namespace {

@@ -7,9 +7,9 @@
 #include <fstream>
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "simulation/effects/enabled_effects.h"
+#include "simulation/effects/effect_library.h"
 #include "simulation/sensor_chain.h"
-#include "simulation/simulation_text.h"
+#include "simulation/settings_text.h"
 #include "support/source_dir.h"
 
 namespace fsr::simulation {

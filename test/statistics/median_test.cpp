@@ -1,4 +1,4 @@
-#include "statistics/median.h"
+#include "statistics/samples.h"
 
 #include <gtest/gtest.h>
 

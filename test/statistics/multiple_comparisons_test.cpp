@@ -1,4 +1,4 @@
-#include "statistics/multiple_comparisons.h"
+#include "statistics/paper_rule.h"
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "statistics/sample_data.h"

@@ -1,4 +1,4 @@
-#include "statistics/paired_t.h"
+#include "statistics/paired_tests.h"
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "statistics/random_stream.h"

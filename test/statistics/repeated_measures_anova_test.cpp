@@ -1,7 +1,7 @@
-#include "statistics/repeated_measures_anova.h"
+#include "statistics/repeated_measures.h"
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "statistics/paired_t.h"
+#include "statistics/paired_tests.h"
 #include "statistics/random_stream.h"
 #include "statistics/repeated_data.h"
 

@@ -1,4 +1,4 @@
-#include "statistics/shapiro_wilk.h"
+#include "statistics/repeated_measures.h"
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "statistics/random_stream.h"

@@ -1,4 +1,4 @@
-#include "statistics/triples_test.h"
+#include "statistics/paired_tests.h"
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "statistics/random_stream.h"

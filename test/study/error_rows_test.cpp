@@ -1,4 +1,4 @@
-#include "study/error_rows.h"
+#include "study/evaluation.h"
 
 #include <gtest/gtest.h>
 

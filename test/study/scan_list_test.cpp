@@ -1,4 +1,4 @@
-#include "study/scan_list.h"
+#include "study/study_data.h"
 
 #include <gtest/gtest.h>
 

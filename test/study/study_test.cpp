@@ -8,9 +8,9 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "simulation/session.h"
-#include "study/decisions.h"
 #include "study/evaluation.h"
-#include "study/history_study.h"
+#include "study/hold_out.h"
+#include "study/paper.h"
 #include "support/counts_in_file.h"
 #include "support/memory_rig.h"
 #include "support/source_dir.h"

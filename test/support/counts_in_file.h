@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "dataset/count_file.h"
+#include "dataset/count_readers.h"
 #include "fsr_pressure_map/dataset/recording.h"
 
 namespace test_support {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "fsr_pressure_map/simulation/simulate.h"
-#include "simulation/read_settings.h"
+#include "simulation/settings_text.h"
 #include "support/source_dir.h"
 
 namespace test_support {

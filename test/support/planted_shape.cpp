@@ -3,7 +3,7 @@
 #include <limits>
 #include <string>
 
-#include "compensation/shape/rest_means.h"
+#include "compensation/shape/rest_law.h"
 
 namespace test_support {
 

@@ -1,5 +1,5 @@
 #include "support/simulated_rig.h"
-#include "simulation/read_settings.h"
+#include "simulation/settings_text.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "fsr_pressure_map/view/colour_map.h"
-#include "view/auto_range.h"
+#include "view/legend.h"
 
 namespace fsr::view {
 namespace {

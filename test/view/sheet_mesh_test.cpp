@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include "fsr_pressure_map/map/map_statistics.h"
-#include "view/smooth_layer.h"
 
 namespace fsr::view {
 namespace {

@@ -193,9 +193,6 @@ struct EffectInfo {
   bool any_course = false;    ///< slow, and its form can imitate any other slow effect
   bool mixture = false;       ///< sums of it with several shapes are forms of the same effect
   bool with_bending = false;  ///< belongs to the simplest simulation of a bent sensor
-  /// Ids of effects that together describe the residual of this one where its real form differs from the
-  /// library's.
-  std::vector<std::string> wrong_form_like = {};
   std::string also_called = {};  ///< name in data sheets, where it could be confused with another effect
 };
 

@@ -6,12 +6,35 @@
 #include <limits>
 #include <vector>
 
-#include "calibration/budget/budget_cycles.h"
 #include "calibration/training_scans.h"
+#include "dataset/sections.h"
 #include "fsr_pressure_map/calibration/calibration.h"
-#include "statistics/running_moments.h"
+#include "fsr_pressure_map/calibration/error_budget.h"
+#include "fsr_pressure_map/dataset/condition_classes.h"
+#include "fsr_pressure_map/dataset/recording.h"
+#include "statistics/samples.h"
 
 namespace fsr::calibration {
+
+/// Where a cycle belongs. Numbers start at 0.
+struct BudgetCycle {
+  std::uint32_t session = 0;  ///< of its class: a condition of a recording
+  std::uint32_t mount = 0;    ///< of its class
+  std::uint32_t unit = 0;     ///< of all classes, see IntervalUnit::kCycles
+};
+
+/// The cycles of each class, by TrainingScan::cycle.
+struct BudgetCycles {
+  /// So many units at most: neighbouring cycles are one unit where there are more.
+  static constexpr std::size_t kMostUnits = 64;
+
+  std::vector<std::vector<BudgetCycle>> of_class;  ///< [classes][cycles]
+  std::size_t units = 0;
+};
+
+BudgetCycles budgetCycles(const std::vector<dataset::Recording>& recordings,
+                          const dataset::ConditionClasses& classes,
+                          const std::vector<dataset::Sections>& sections);
 
 /// The pressures of a budget, and the readings that count for each.
 struct BudgetScale {

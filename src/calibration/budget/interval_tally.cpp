@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "statistics/conformal.h"
-#include "statistics/running_moments.h"
+#include "statistics/samples.h"
 
 namespace fsr::calibration {
 

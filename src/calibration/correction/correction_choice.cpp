@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "statistics/paired_t.h"
+#include "statistics/paired_tests.h"
 
 namespace fsr::calibration {
 

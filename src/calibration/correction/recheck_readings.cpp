@@ -9,7 +9,6 @@
 #include "calibration/temperature/temperature_course.h"
 #include "compensation/temperature_state.h"
 #include "dataset/count_readers.h"
-#include "dataset/cycles.h"
 #include "dataset/sections.h"
 #include "fsr_pressure_map/calibration/calibrator.h"
 #include "fsr_pressure_map/dataset/condition_classes.h"

@@ -2,9 +2,11 @@
 
 #include <vector>
 
+#include "calibration/session/session_rests.h"
 #include "calibration/shape/mounted_rests.h"
 #include "fsr_pressure_map/calibration/calibration.h"
 #include "fsr_pressure_map/compensation/shape.h"
+#include "fsr_pressure_map/dataset/recording.h"
 
 namespace fsr::calibration {
 
@@ -16,5 +18,10 @@ compensation::ShapeModel learnShape(const std::vector<MountedRest>& mounts, cons
 
 /// Whether the surface is known and has one curvature all over.
 bool bentAlike(const matrix::Surface& surface);
+
+/// Gives the calibration its model of the shape, and a warning for each misplaced mount.
+/// `threads`: 0 = one for each core.
+void trainShape(const std::vector<dataset::Recording>& recordings, const Sessions& sessions, unsigned threads,
+                Calibration& calibration);
 
 }  // namespace fsr::calibration

@@ -7,7 +7,7 @@
 #include "calibration/tare.h"
 #include "fsr_pressure_map/compensation/shape.h"
 #include "fsr_pressure_map/matrix/scan.h"
-#include "statistics/running_moments.h"
+#include "statistics/samples.h"
 
 namespace fsr::calibration {
 

@@ -4,7 +4,7 @@
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 
-#include "compensation/shape/bend_change.h"
+#include "compensation/shape/learn_shape.h"
 #include "compensation/shape/read_shape.h"
 #include "fsr_pressure_map/dataset/condition_classes.h"
 #include "fsr_pressure_map/settings/input_error.h"

@@ -7,7 +7,7 @@
 
 #include "compensation/temperature_state.h"
 #include "fsr_pressure_map/calibration/calibrator.h"
-#include "rheology/exponential_memory.h"
+#include "rheology/memory.h"
 
 namespace fsr::calibration {
 

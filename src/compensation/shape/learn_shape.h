@@ -1,11 +1,27 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <functional>
 #include <vector>
 
+#include "compensation/shape/read_shape.h"
 #include "fsr_pressure_map/compensation/shape.h"
 
 namespace fsr::compensation {
+
+enum class SearchScale { kLinear, kLogarithmic };
+
+/// A parameter that is searched between two values.
+struct Searched {
+  double* value;
+  double low, high;
+  SearchScale scale = SearchScale::kLogarithmic;
+};
+
+/// Minimises `cost` along each parameter in turn (R. P. Brent, Algorithms for Minimization Without
+/// Derivatives, 1973), until a round over all parameters gains less than a thousandth. Leaves the parameters
+/// at the minimum and returns it.
+double search(const std::vector<Searched>& parameters, const std::function<double()>& cost);
 
 /// The readings at rest on one surface.
 struct SurfaceRests {
@@ -27,5 +43,12 @@ MountScatter learnScatter(const std::vector<SurfaceRests>& surfaces,
 /// Learns the law over curvature by maximum likelihood on the means of the surfaces. `model` must have
 /// everything but its law.
 ShapeLaw learnLaw(const ShapeModel& model);
+
+/// Tells whether the bend changes along the sheet: the most likely centre and changes along both axes,
+/// against the constant bend of `constant` (likelihood ratio with two degrees of freedom). Deviations follow
+/// from the curvature of the likelihood there. `model` must be that of the reader. Throws as
+/// ShapeReader::estimate().
+ChangingBend tellBendChange(const ShapeReader& reader, const ShapeModel& model, const RestReading& rest,
+                            const ShapeEstimate& constant);
 
 }  // namespace fsr::compensation

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "matrix/for_each_taxel.h"
-#include "statistics/median.h"
 #include "statistics/random_stream.h"
+#include "statistics/samples.h"
 
 namespace fsr::discrepancy {
 

@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "discrepancy/decide/search.h"
-#include "discrepancy/fit/cycle_scatter.h"
+#include "discrepancy/fit/cycle_noise.h"
 #include "discrepancy/samples/available_evidence.h"
 #include "settings/number_text.h"
 #include "simulation/effects/effect_library.h"
-#include "statistics/median.h"
+#include "statistics/samples.h"
 
 namespace fsr::discrepancy {
 

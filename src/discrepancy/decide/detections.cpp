@@ -2,14 +2,254 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <numeric>
 
-#include "discrepancy/decide/changes.h"
-#include "discrepancy/fit/base_fit.h"
-#include "discrepancy/thresholds.h"
+#include "discrepancy/decide/refine.h"
+#include "discrepancy/fit/parameter_fit.h"
 #include "simulation/effects/effect_library.h"
 #include "statistics/random_stream.h"
+#include "statistics/samples.h"
 
 namespace fsr::discrepancy {
+
+namespace {
+
+constexpr double kLeastTurns = 0.4;        // least turns of the phase over the whole scan
+constexpr std::size_t kLongestPart = 256;  // samples of a part whose spectrum is taken
+constexpr std::size_t kFewestTaxels = 8;
+constexpr double kMainsFrequency = 50;  // assumed [Hz]
+
+// Readings of the used taxels, minus their static curves and minus the mean residual of these taxels.
+class SheetResiduals {
+ public:
+  SheetResiduals(const Measured& measured, const TaxelFit& taxels) : measured_(measured), taxels_(taxels) {
+    for (std::size_t t = 0; t < measured.taxels(); ++t) {
+      if (measured.used[t]) place_.push_back(t);
+    }
+  }
+  std::size_t size() const { return place_.size(); }
+  double place(std::size_t k) const { return static_cast<double>(place_[k]); }
+  void at(std::size_t sample, Eigen::VectorXd& result) {
+    taxels_.residuals(sample, all_);
+    for (std::size_t k = 0; k < place_.size(); ++k) result[static_cast<Eigen::Index>(k)] = all_[place_[k]];
+    result.array() -= result.mean();
+  }
+
+ private:
+  const Measured& measured_;
+  const TaxelFit& taxels_;
+  std::vector<std::size_t> place_;
+  std::vector<double> all_;
+};
+
+Eigen::MatrixXd covarianceOf(const Measured& measured, SheetResiduals& residuals) {
+  const auto n = static_cast<Eigen::Index>(residuals.size());
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(n, n);
+  Eigen::VectorXd now(n);
+  for (std::size_t i = 0; i < measured.samples(); ++i) {
+    residuals.at(i, now);
+    covariance.selfadjointView<Eigen::Lower>().rankUpdate(now);
+  }
+  covariance /= static_cast<double>(measured.samples());
+  return covariance.selfadjointView<Eigen::Lower>();
+}
+
+Eigen::VectorXcd patternOf(const SheetResiduals& residuals, double turn) {
+  Eigen::VectorXcd pattern(static_cast<Eigen::Index>(residuals.size()));
+  for (std::size_t k = 0; k < residuals.size(); ++k) {
+    pattern[static_cast<Eigen::Index>(k)] =
+        std::polar(1 / std::sqrt(static_cast<double>(residuals.size())), turn * residuals.place(k));
+  }
+  return pattern;
+}
+
+// SheetResiduals of the used taxels at all samples [samples x taxels], and where the parts of the spectrum
+// lie.
+struct Courses {
+  Eigen::MatrixXf residual;
+  struct Part {
+    Eigen::Index first, samples;
+  };
+  std::vector<Part> parts;
+};
+
+Courses coursesOf(const Measured& measured, SheetResiduals& residuals) {
+  Courses courses;
+  const auto n = static_cast<Eigen::Index>(residuals.size());
+  courses.residual.resize(static_cast<Eigen::Index>(measured.samples()), n);
+  Eigen::VectorXd now(n);
+  for (std::size_t i = 0; i < measured.samples(); ++i) {
+    residuals.at(i, now);
+    courses.residual.row(static_cast<Eigen::Index>(i)) = now.cast<float>();
+  }
+  for (const Visit& visit : measured.visits) {
+    const std::size_t length = visit.last - visit.first;
+    const std::size_t parts = (length + kLongestPart - 1) / kLongestPart;
+    for (std::size_t p = 0; p < parts; ++p) {
+      const std::size_t from = visit.first + p * length / parts, to = visit.first + (p + 1) * length / parts;
+      courses.parts.push_back({static_cast<Eigen::Index>(from), static_cast<Eigen::Index>(to - from)});
+    }
+  }
+  return courses;
+}
+
+// The strongest pattern, and the line of its course.
+struct Line {
+  double turn = 0, excess = 0, usual = 0;
+  double height = 0;      // one-sided power of the strongest line / mean power of all frequencies
+  double p_standing = 1;  // that a pattern that does not move has such a line
+};
+
+// exp(2 pi j f i) of the frequencies 0 .. kLongestPart / 2, [samples x frequencies].
+const Eigen::MatrixXcf& waves() {
+  static const Eigen::MatrixXcf all = [] {
+    const auto size = static_cast<Eigen::Index>(kLongestPart);
+    Eigen::MatrixXcf result(size, size / 2 + 1);
+    for (Eigen::Index f = 0; f < result.cols(); ++f) {
+      for (Eigen::Index i = 0; i < size; ++i)
+        result(i, f) = std::polar(1.0F, static_cast<float>(2 * M_PI * static_cast<double>(f * i % size) /
+                                                           static_cast<double>(size)));
+    }
+    return result;
+  }();
+  return all;
+}
+
+// Probability that the ratio of two sums of `parts` powers of equal mean is beyond a ratio: Fisher's
+// distribution with 2 parts and 2 parts degrees of freedom.
+double beyondRatio(double ratio, std::size_t parts) {
+  const double x = 1 / (1 + ratio), tests = 2 * static_cast<double>(parts) - 1;
+  double p = 0;
+  for (double k = static_cast<double>(parts); k <= tests; ++k)
+    p += std::exp(std::lgamma(tests + 1) - std::lgamma(k + 1) - std::lgamma(tests - k + 1) + k * std::log(x) +
+                  (tests - k) * std::log1p(-x));
+  return std::min(1.0, p);
+}
+
+Line strongest(const Courses& courses, const Eigen::MatrixXd& covariance, const SheetResiduals& residuals,
+               const std::vector<Eigen::VectorXcd>& patterns, const std::vector<double>& turns,
+               const std::vector<Eigen::Index>& order) {
+  Line line;
+  std::vector<double> powers;
+  Eigen::VectorXcd placed(static_cast<Eigen::Index>(residuals.size()));
+  const auto place = [&](const Eigen::VectorXcd& pattern) {
+    for (Eigen::Index k = 0; k < placed.size(); ++k) placed[order[static_cast<std::size_t>(k)]] = pattern[k];
+  };
+  for (const Eigen::VectorXcd& pattern : patterns) {
+    place(pattern);
+    powers.push_back((placed.adjoint() * covariance * placed).value().real());
+  }
+  const auto peak = static_cast<std::size_t>(std::max_element(powers.begin(), powers.end()) - powers.begin());
+  line.usual = statistics::upperMedian(powers);
+  line.excess = powers[peak] - line.usual;
+  line.turn = turns[peak];
+  place(patterns[peak]);
+  const Eigen::VectorXcf course = courses.residual * placed.conjugate().cast<std::complex<float>>();
+  Eigen::VectorXf forth = Eigen::VectorXf::Zero(waves().cols()), back = forth;
+  for (const Courses::Part& part : courses.parts) {
+    const Eigen::VectorXcf now = course.segment(part.first, part.samples);
+    const auto wave = waves().topRows(part.samples);
+    forth += (wave.adjoint() * now).cwiseAbs2();
+    back += (wave.transpose() * now).cwiseAbs2();
+  }
+  const float mean = (forth.mean() + back.mean()) / 2;
+  Eigen::Index at = 0;
+  line.height = mean > 0 ? static_cast<double>((forth - back).cwiseAbs().maxCoeff(&at) / mean) : 0;
+  const double ratio =
+      static_cast<double>(std::max(forth[at], back[at]) / std::max(1e-30F, std::min(forth[at], back[at])));
+  line.p_standing =
+      std::min(1.0, static_cast<double>(2 * forth.size()) * beyondRatio(ratio, courses.parts.size()));
+  return line;
+}
+
+}  // namespace
+
+Mains findMains(const Measured& measured, const StaticFit& fit, const TaxelFit& taxels,
+                const DiscrepancyOptions& options) {
+  Mains mains;
+  SheetResiduals residuals(measured, taxels);
+  if (residuals.size() < kFewestTaxels) return mains;
+  const Eigen::MatrixXd covariance = covarianceOf(measured, residuals);
+  const auto n = static_cast<double>(measured.taxels());
+  std::vector<double> turns;
+  std::vector<Eigen::VectorXcd> patterns;
+  for (double turn = kLeastTurns * 2 * M_PI / n; turn < M_PI; turn += M_PI / (2 * n)) {
+    turns.push_back(turn);
+    patterns.push_back(patternOf(residuals, turn));
+  }
+  const Courses courses = coursesOf(measured, residuals);
+  std::vector<Eigen::Index> order(residuals.size());
+  std::iota(order.begin(), order.end(), 0);
+  const Line line = strongest(courses, covariance, residuals, patterns, turns, order);
+  mains.turn = line.turn;
+  const double total = covariance.trace() / static_cast<double>(residuals.size()) + taxels.within();
+  mains.share = total > 0 ? 2 * line.excess / static_cast<double>(residuals.size()) / total : 0;
+  mains.amplitude = 2 * std::sqrt(std::max(0.0, line.excess) / static_cast<double>(residuals.size()));
+  const auto [low, high] = std::minmax_element(measured.pressure.begin(), measured.pressure.end());
+  const double slope = fit.netCurve().maxCoeff() / std::max(1.0, *high - *low);
+  mains.at_map = slope > 0 ? mains.amplitude / std::sqrt(2) / slope : 0;
+  if (mains.at_map < leastGap(measured, options)) return mains;
+  std::size_t beyond = 0, draws = 0;
+  for (; draws < options.null_draws; ++draws) {
+    const statistics::RandomStream stream = statistics::randomStream(options.seed, "hum", draws);
+    for (std::size_t k = order.size(); k-- > 1;)
+      std::swap(order[k], order[static_cast<std::size_t>(stream.uniform(k) * static_cast<double>(k + 1))]);
+    const Line other = strongest(courses, covariance, residuals, patterns, turns, order);
+    beyond += other.height * other.excess >= line.height * line.excess;
+    // No further draw can bring it below the level.
+    if (static_cast<double>(1 + beyond) > options.level * static_cast<double>(options.null_draws + 1)) {
+      ++draws;
+      break;
+    }
+  }
+  mains.p = std::max(line.p_standing, static_cast<double>(1 + beyond) / static_cast<double>(draws + 1));
+  mains.found = mains.p <= options.level;
+  if (!mains.found) return mains;
+  const Eigen::VectorXcd pattern = patternOf(residuals, mains.turn);
+  const auto samples = static_cast<Eigen::Index>(measured.samples());
+  mains.cosine.resize(samples);
+  mains.sine.resize(samples);
+  std::complex<double> turned = 0, before = 0;
+  double seconds = 0, steps = 0;
+  for (Eigen::Index i = 0; i < samples; ++i) {
+    const auto sample = static_cast<std::size_t>(i);
+    const std::complex<double> z =
+        pattern.dot(courses.residual.row(i).transpose().cast<std::complex<double>>());
+    mains.cosine[i] = z.real();
+    mains.sine[i] = z.imag();
+    if (i > 0 && measured.visit[sample] == measured.visit[sample - 1]) {
+      turned += std::conj(before) * z;
+      seconds += measured.time[sample] - measured.time[sample - 1];
+      ++steps;
+    }
+    before = z;
+  }
+  mains.rate = seconds > 0 ? steps / seconds : 0;
+  mains.beat = std::arg(turned) / (2 * M_PI) * mains.rate;
+  return mains;
+}
+
+void takeOut(const Mains& mains, const StaticFit& fit, CommonTraces& common) {
+  Eigen::MatrixXd course(mains.cosine.size(), 2);
+  course << mains.cosine, mains.sine;
+  const Eigen::MatrixXd normal = course.transpose() * course;
+  const Eigen::Vector2d weights = normal.ldlt().solve(course.transpose() * fit.residual(common.all));
+  common.all -= course * weights;
+}
+
+simulation::EnabledEffect asEffect(const Mains& mains, double full_scale) {
+  simulation::EnabledEffect effect{simulation::foundBy(simulation::Detector::kMains).id, {}};
+  for (const simulation::EffectParameter& parameter : simulation::findEffect(effect.id)->info.parameters) {
+    effect.values[parameter.name] = parameter.usual;
+  }
+  effect.values["amplitude"] = mains.amplitude * full_scale;
+  // All frequencies that differ by the sample rate look the same; the hum is the one nearest to the mains.
+  const double turns = mains.rate > 0 ? std::round((kMainsFrequency - mains.beat) / mains.rate) : 0;
+  effect.values["frequency"] = mains.rate > 0 ? mains.beat + turns * mains.rate : kMainsFrequency;
+  effect.values["taxel_time"] = std::abs(mains.turn) / (2 * M_PI * kMainsFrequency);
+  return effect;
+}
 
 namespace {
 

@@ -4,11 +4,40 @@
 #include <vector>
 
 #include "discrepancy/decide/decision.h"
-#include "discrepancy/fit/mains.h"
+#include "discrepancy/fit/static_fit.h"
 #include "discrepancy/fit/static_layer.h"
+#include "discrepancy/fit/taxel_fit.h"
 #include "discrepancy/samples/faults.h"
+#include "discrepancy/samples/measured.h"
+#include "fsr_pressure_map/simulation/simulation_settings.h"
 
 namespace fsr::discrepancy {
+
+/// Mains hum. Its phase advances through the matrix in the order of the scan.
+struct Mains {
+  bool found = false;
+  double share = 0;      ///< share of the readings' squared error
+  double p = 1;          ///< of its line among those of permuted taxels
+  double at_map = 0;     ///< its rms divided by the mean slope of the static curves [Pa]
+  double amplitude = 0;  ///< [share of full scale]
+  double turn = 0;       ///< phase from one taxel of the scan to the next [rad]
+  double beat = 0;       ///< its apparent frequency after sampling [Hz]
+  double rate = 0;       ///< of the samples [Hz]
+  Trace cosine, sine;    ///< its time course, to subtract it from the common traces
+};
+
+/// Searches for hum. A hum has one phase in each taxel, and the phase advances from taxel to taxel.
+/// Therefore one of the patterns exp(j turn i), in the order of the scan, stands out, and its time course
+/// turns at one frequency, folded down by the sampling: a narrow line on one side of the spectrum. A pattern
+/// that stands still in space has the same power at f and at -f and is not hum. The largest such line is held
+/// against those that the same search finds after the taxels were permuted.
+Mains findMains(const Measured& measured, const StaticFit& fit, const TaxelFit& taxels,
+                const DiscrepancyOptions& options);
+
+/// Subtracts the hum's time course from the common traces.
+void takeOut(const Mains& mains, const StaticFit& fit, CommonTraces& common);
+
+simulation::EnabledEffect asEffect(const Mains& mains, double full_scale);
 
 /// An effect that a detector found. It is reported beside the explanation of the common trace.
 struct Detection {

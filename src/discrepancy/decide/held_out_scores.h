@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "discrepancy/decide/explaining.h"
+#include "discrepancy/decide/candidates.h"
 #include "discrepancy/fit/cycle_design.h"
 #include "discrepancy/fit/cycle_noise.h"
 

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <vector>
 
-#include "discrepancy/fit/spline_basis.h"
 #include "discrepancy/fit/static_fit.h"
 #include "discrepancy/samples/measured.h"
 

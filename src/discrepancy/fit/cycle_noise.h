@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "discrepancy/fit/cycle_design.h"
+#include "fsr_pressure_map/discrepancy/discrepancy.h"
 
 namespace fsr::discrepancy {
 
@@ -106,5 +107,13 @@ class StaticSolution {
 /// Fits the noise by maximum likelihood. Without `start` the stiffness of the static curves and the scatter
 /// of the visits are fitted, too. With it they stay, and the search begins at these variances.
 CycleNoise fitNoise(const CycleDesign& design, StaticModel& model, const CycleNoise* start = nullptr);
+
+/// The slow parts of a fitted noise, as sizes with intervals: cycle_gain, cycle_offset and wandering.
+///
+/// The intervals are of the likelihood: the inverse of the expected information on all variances gives the
+/// standard error of each. The logarithm of a variance is taken as normal where the variance exceeds two
+/// standard errors; else the interval begins at 0. Source: S. Searle, G. Casella, C. McCulloch, Variance
+/// Components, Wiley 1992, chapter 6. Empty for fewer than three cycles.
+std::vector<Scatter> scatterOf(const CycleDesign& design, const CycleNoise& noise);
 
 }  // namespace fsr::discrepancy

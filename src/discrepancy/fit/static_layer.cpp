@@ -4,8 +4,8 @@
 #include <cmath>
 #include <map>
 
-#include "discrepancy/fit/levenberg.h"
-#include "discrepancy/thresholds.h"
+#include "discrepancy/fit/parameter_fit.h"
+#include "discrepancy/samples/measured.h"
 
 namespace fsr::discrepancy {
 

@@ -5,6 +5,7 @@
 
 #include "discrepancy/fit/static_fit.h"
 #include "discrepancy/samples/measured.h"
+#include "fsr_pressure_map/simulation/effect_info.h"
 
 namespace fsr::discrepancy {
 
@@ -37,5 +38,17 @@ struct Spread {
   double local = 1;           ///< mean square of the amplitude / its squared mean: 1 if all taxels agree
 };
 Spread spreadOf(const Measured& measured, const TaxelFit& taxels, const Trace& trace);
+
+/// Taxels, rows or columns that deviate from the others, whatever the reason. They are reported when no
+/// effect of the library describes a fault.
+struct OddTaxels {
+  std::vector<std::size_t> taxels;                           ///< row-major indices, ascending; empty = none
+  simulation::Covariate by = simulation::Covariate::kTaxel;  ///< or kRow, kColumn
+  double share = 0;  ///< share of the readings' squared error that these taxels alone cause
+};
+
+/// Tests the residual of every taxel from its static curves, after the mean residual of all taxels has been
+/// subtracted. A taxel that hardly responds to the pressure while others do is odd as well.
+OddTaxels findOddTaxels(const Measured& measured, const TaxelFit& taxels);
 
 }  // namespace fsr::discrepancy

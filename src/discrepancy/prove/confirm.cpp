@@ -8,11 +8,9 @@
 #include <memory>
 
 #include "discrepancy/decide/decision.h"
-#include "discrepancy/decide/predict.h"
-#include "discrepancy/decide/take_out.h"
-#include "discrepancy/fit/base_fit.h"
+#include "discrepancy/decide/refine.h"
+#include "discrepancy/fit/parameter_fit.h"
 #include "discrepancy/prove/freeze.h"
-#include "discrepancy/prove/prediction_hash.h"
 #include "discrepancy/prove/wording.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "settings/number_text.h"

@@ -6,8 +6,8 @@
 #include <tuple>
 
 #include "dataset/count_readers.h"
-#include "discrepancy/fit/drive_recordings.h"
-#include "discrepancy/prove/gap_intervals.h"
+#include "discrepancy/fit/signatures.h"
+#include "discrepancy/prove/gap.h"
 
 namespace fsr::discrepancy {
 

@@ -1,13 +1,21 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <vector>
 
 #include "discrepancy/decide/decision.h"
 #include "discrepancy/fit/taxel_fit.h"
-#include "discrepancy/samples/held_out.h"
+#include "discrepancy/samples/views.h"
+#include "fsr_pressure_map/discrepancy/discrepancy.h"
 
 namespace fsr::discrepancy {
+
+/// Sets the 95 % intervals of `gap` by a bootstrap over its cycles. `of(chosen)` returns the gap of the
+/// chosen cycles, indices below `cycles` that may repeat. Without a cycle the intervals are NaN.
+void setIntervals(std::size_t cycles, std::uint64_t seed,
+                  const std::function<Gap(const std::vector<std::size_t>& chosen)>& of, Gap& gap);
 
 /// Finds where a trace shows: its taxels, surfaces, pressures and direction. `left`: residual of the trace
 /// after the static curves. `spread`: amplitude of the trace in each taxel and each class of curvature. The

@@ -5,7 +5,7 @@
 #include <set>
 #include <variant>
 
-#include "discrepancy/decide/changes.h"
+#include "discrepancy/decide/refine.h"
 #include "discrepancy/fit/cycle_design.h"
 #include "discrepancy/fit/signatures.h"
 #include "discrepancy/fit/static_fit.h"
@@ -16,8 +16,8 @@
 #include "settings/number_text.h"
 #include "simulation/effects/effect_library.h"
 #include "simulation/pressure_profile.h"
-#include "simulation/read_settings.h"
 #include "simulation/session.h"
+#include "simulation/settings_text.h"
 #include "statistics/random_stream.h"
 
 namespace fsr::discrepancy {

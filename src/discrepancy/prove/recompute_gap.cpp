@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "dataset/count_readers.h"
-#include "dataset/time_order.h"
-#include "discrepancy/fit/drive_recordings.h"
+#include "dataset/sections.h"
+#include "discrepancy/fit/signatures.h"
 
 namespace fsr::discrepancy {
 

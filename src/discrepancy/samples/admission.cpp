@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "calibration/sources.h"
-#include "dataset/mounts/differing_mounts.h"
+#include "dataset/mounts.h"
 #include "fsr_pressure_map/calibration/calibration.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "settings/number_text.h"

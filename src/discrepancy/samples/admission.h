@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "dataset/reference_lag.h"
+#include "dataset/reference_errors.h"
 #include "discrepancy/samples/faults.h"
 #include "fsr_pressure_map/dataset/condition_classes.h"
 #include "health/recording_health.h"

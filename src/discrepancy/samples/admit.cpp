@@ -4,12 +4,8 @@
 #include <set>
 
 #include "dataset/count_readers.h"
-#include "dataset/cycles.h"
-#include "dataset/time_order.h"
+#include "dataset/sections.h"
 #include "discrepancy/samples/measured.h"
-#include "discrepancy/samples/require_reference.h"
-#include "discrepancy/samples/too_few_cycles.h"
-#include "discrepancy/thresholds.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "settings/number_text.h"
 #include "simulation/effects/effect_library.h"

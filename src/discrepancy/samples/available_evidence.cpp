@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "discrepancy/thresholds.h"
-#include "statistics/median.h"
+#include "discrepancy/samples/measured.h"
+#include "statistics/samples.h"
 
 namespace fsr::discrepancy {
 

@@ -4,9 +4,8 @@
 #include <cmath>
 #include <map>
 
-#include "discrepancy/samples/line_faults.h"
-#include "discrepancy/samples/taxel_faults.h"
-#include "discrepancy/thresholds.h"
+#include "discrepancy/samples/measured.h"
+#include "discrepancy/samples/taxel_courses.h"
 #include "simulation/effects/effect_library.h"
 
 namespace fsr::discrepancy {

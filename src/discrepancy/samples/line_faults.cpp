@@ -1,4 +1,4 @@
-#include "discrepancy/samples/line_faults.h"
+#include "discrepancy/samples/taxel_courses.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -6,8 +6,8 @@
 #include <numeric>
 #include <tuple>
 
-#include "statistics/median.h"
 #include "statistics/random_stream.h"
+#include "statistics/samples.h"
 
 namespace fsr::discrepancy {
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -8,8 +9,41 @@
 #include "fsr_pressure_map/dataset/condition_classes.h"
 #include "fsr_pressure_map/dataset/recording.h"
 #include "fsr_pressure_map/discrepancy/discrepancy.h"
+#include "fsr_pressure_map/settings/input_error.h"
 
 namespace fsr::discrepancy {
+
+/// Thresholds that several files share. A threshold that only one file uses stands in that file.
+namespace thresholds {
+
+/// Share of the readings' squared error. An effect, a pattern or a group of taxels that explains less does
+/// not matter.
+constexpr double kLeastShareOfError = 0.02;
+/// Share of the largest root mean square. A taxel, a class of curvature or a mount with less does not show
+/// the effect.
+constexpr double kShows = 0.2;
+/// The same for a bin of pressure.
+constexpr double kPressureShows = 0.25;
+/// Width of a bin of pressure [Pa].
+constexpr double kPressureBin = 25e3;
+/// Share of the highest pressure. Below it the sheet counts as unloaded.
+constexpr double kLoaded = 0.1;
+/// Smallest range of the chamber pressure [Pa].
+constexpr double kLeastRange = 10e3;
+
+/// At least half of the taxels must be usable: detectors compare a taxel with the others.
+constexpr bool enoughUsable(std::size_t usable, std::size_t taxels) {
+  return 2 * usable >= taxels;
+}
+
+}  // namespace thresholds
+
+/// Recordings that are sound, but have too few cycles to compare. A question about an effect has an answer
+/// all the same: these recordings cannot show it.
+class TooFewCycles : public settings::InputError {
+ public:
+  using InputError::InputError;
+};
 
 /// A stay of the matrix on one surface: samples first .. last - 1.
 struct Visit {
@@ -101,5 +135,10 @@ Measured admit(const DiscrepancyProblem& problem);
 /// line through them. Beside a corner the line uses scans of one side only. `rate` receives the slope [Pa/s].
 std::vector<double> smoothCourse(const std::vector<double>& time, const std::vector<double>& pressure,
                                  std::vector<double>& rate);
+
+/// Throws InputError where the reference of a recording does not belong to its readings: they change while it
+/// stays, fall where it rises, or do not follow it. Such a recording would make a static curve of its own,
+/// and nothing would be noticed.
+void requireReference(const Measured& measured);
 
 }  // namespace fsr::discrepancy

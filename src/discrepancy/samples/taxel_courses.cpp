@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "dataset/count_readers.h"
-#include "statistics/median.h"
+#include "statistics/samples.h"
 
 namespace fsr::discrepancy {
 

@@ -99,4 +99,33 @@ class TaxelCourse {
 /// own: the fault lasts longer there than the sound part.
 std::vector<VisitCourses> taxelCourses(const Measured& measured);
 
+/// A row or column that fails in spells.
+struct LineFault {
+  bool found = false;
+  std::size_t line = 0;
+  std::vector<std::size_t> taxels;         ///< row-major
+  double p = 1;                            ///< corrected for all lines
+  std::vector<std::vector<bool>> failing;  ///< [visits][scans]
+};
+
+/// Searches rows (or columns) for steps from one scan to the next in which their taxels leave the
+/// neighbouring lines together. `sound`: for each taxel; others are left out.
+LineFault findLineFault(const Measured& measured, const std::vector<VisitCourses>& courses, bool rows,
+                        const std::vector<bool>& sound, const DiscrepancyOptions& options);
+
+/// A taxel that leaves the others.
+struct TaxelFault {
+  /// What its readings do in the spells. kOther: they still follow the others, or do neither of the two.
+  enum class Kind { kOther, kDead, kStuck };
+  std::size_t taxel = 0;
+  Kind kind = Kind::kOther;
+  double p = 1;                            ///< corrected for all taxels and lengths of spells
+  std::vector<std::vector<bool>> failing;  ///< [visits][scans]
+};
+
+/// Searches single taxels for spells in which they leave the others. `sound`: for each taxel; others are left
+/// out. Returns those that are outliers by `level`.
+std::vector<TaxelFault> findTaxelFaults(const Measured& measured, const std::vector<VisitCourses>& courses,
+                                        const std::vector<bool>& sound, const DiscrepancyOptions& options);
+
 }  // namespace fsr::discrepancy

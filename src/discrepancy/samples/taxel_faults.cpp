@@ -1,4 +1,4 @@
-#include "discrepancy/samples/taxel_faults.h"
+#include "discrepancy/samples/taxel_courses.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "statistics/median.h"
+#include "statistics/samples.h"
 
 namespace fsr::discrepancy {
 

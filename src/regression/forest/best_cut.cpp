@@ -1,4 +1,4 @@
-#include "regression/forest/best_cut.h"
+#include "regression/forest/forest_tree.h"
 
 #include <algorithm>
 #include <cstdint>

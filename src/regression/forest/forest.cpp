@@ -6,7 +6,6 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "regression/forest/forest_tree.h"
-#include "regression/option_names.h"
 #include "regression/regressors.h"
 #include "regression/second_input.h"
 

@@ -7,8 +7,6 @@
 #include "fsr_pressure_map/settings/range.h"
 #include "regression/grnn/kernel_mean.h"
 #include "regression/grnn/weighted_codes.h"
-#include "regression/option_names.h"
-#include "regression/pressure_grid.h"
 #include "regression/regressors.h"
 #include "regression/second_input.h"
 

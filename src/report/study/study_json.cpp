@@ -3,7 +3,7 @@
 #include "report/history_report.h"
 #include "report/result_json.h"
 #include "report/study/study_report.h"
-#include "study/paper_numbers.h"
+#include "study/paper.h"
 
 namespace fsr::report {
 

@@ -3,7 +3,7 @@
 
 #include "report/study/study_report.h"
 #include "settings/number_text.h"
-#include "study/paper_numbers.h"
+#include "study/paper.h"
 
 namespace fsr::report {
 

@@ -6,7 +6,7 @@
 #include "report/history_report.h"
 #include "report/study/study_report.h"
 #include "settings/number_text.h"
-#include "study/paper_numbers.h"
+#include "study/paper.h"
 
 namespace fsr::report {
 

@@ -14,7 +14,7 @@
 #include "ros/bags/sensor_topics.h"
 #include "ros/messages/message_reader.h"
 #include "settings/number_text.h"
-#include "statistics/median.h"
+#include "statistics/samples.h"
 
 namespace fsr_ros {
 

@@ -9,7 +9,7 @@
 #include <optional>
 #include <set>
 
-#include "dataset/row_spool.h"
+#include "dataset/unnamed_file.h"
 #include "fsr_pressure_map/ros/bag_reader.h"
 #include "ros/bags/bag_walk.h"
 #include "ros/bags/bag_writer.h"

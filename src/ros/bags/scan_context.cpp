@@ -11,8 +11,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dataset/cycles.h"
 #include "dataset/recording_builder.h"
+#include "dataset/sections.h"
 #include "ros/messages/surface_message.h"
 
 namespace fsr_ros {

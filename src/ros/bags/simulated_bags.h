@@ -8,7 +8,7 @@
 
 #include "fsr_pressure_map/ros/bag_reader.h"
 #include "fsr_pressure_map/simulation/simulation_settings.h"
-#include "simulation/rig_state.h"
+#include "simulation/rig.h"
 
 namespace fsr_ros {
 

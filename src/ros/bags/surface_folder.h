@@ -6,7 +6,7 @@
 
 #include "fsr_pressure_map/matrix/curvature.h"
 #include "fsr_pressure_map/matrix/layout.h"
-#include "matrix/mesh_place.h"
+#include "matrix/surface_file.h"
 
 namespace fsr_ros {
 

@@ -9,7 +9,6 @@
 #include <optional>
 #include <vector>
 
-#include "protocol/board_gate.h"
 #include "protocol/board_reader.h"
 #include "protocol/packet_stamper.h"
 #include "ros/driver/driver_health.h"

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "matrix/mesh_place.h"
+#include "matrix/surface_file.h"
 
 namespace fsr_ros {
 

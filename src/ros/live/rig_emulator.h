@@ -11,7 +11,7 @@
 #include "ros/bags/surface_folder.h"
 #include "ros/live/parameters.h"
 #include "ros/live/rig_operator.h"
-#include "simulation/read_settings.h"
+#include "simulation/settings_text.h"
 
 namespace fsr_ros {
 

@@ -6,7 +6,6 @@
 #include <sstream>
 
 #include "fsr_pressure_map/calibration/calibration_file.h"
-#include "regression/option_names.h"
 #include "regression/regressors.h"
 #include "report/calibration_report.h"
 #include "report/session_report.h"

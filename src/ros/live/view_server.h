@@ -12,7 +12,7 @@
 #include "ros/live/alarm_desk.h"
 #include "ros/live/view_settings.h"
 #include "ros/messages/sheet_shape.h"
-#include "view/auto_range.h"
+#include "view/legend.h"
 
 namespace fsr_ros {
 

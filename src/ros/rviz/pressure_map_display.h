@@ -6,7 +6,7 @@
 
 #include "fsr_pressure_map/view/heat_map.h"
 #include "ros/rviz/sheet_display.h"
-#include "view/auto_range.h"
+#include "view/legend.h"
 #endif
 
 namespace fsr_rviz {

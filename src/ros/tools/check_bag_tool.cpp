@@ -8,7 +8,7 @@
 
 #include "calibration/shape/mount_checks.h"
 #include "dataset/conditioning.h"
-#include "dataset/mounts/mount_remarks.h"
+#include "dataset/mounts.h"
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "fsr_pressure_map/ros/bag_reader.h"
 #include "fsr_pressure_map/settings/input_error.h"

@@ -22,7 +22,7 @@
 #include "settings/sha256.h"
 #include "simulation/effects/effect_library.h"
 #include "simulation/portrait.h"
-#include "simulation/simulation_text.h"
+#include "simulation/settings_text.h"
 
 namespace fsr_ros {
 

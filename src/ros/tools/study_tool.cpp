@@ -16,7 +16,7 @@
 #include "settings/replace_file.h"
 #include "settings/sha256.h"
 #include "simulation/session.h"
-#include "simulation/simulation_text.h"
+#include "simulation/settings_text.h"
 #include "study/study.h"
 
 namespace fsr_ros {

@@ -13,7 +13,6 @@
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "fsr_pressure_map/ros/bag_reader.h"
 #include "fsr_pressure_map/settings/input_error.h"
-#include "regression/option_names.h"
 #include "regression/regressors.h"
 #include "report/budget_report.h"
 #include "report/calibration_check_report.h"

@@ -4,7 +4,6 @@
 #include <stdexcept>
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "fsr_pressure_map/simulation/simulation_settings.h"
 
 namespace fsr::simulation {
 
@@ -70,6 +69,42 @@ const EffectInfo& foundBy(Detector detector) {
 
 std::vector<std::string> effectIds() {
   return EffectLibrary::shipped().ids();
+}
+
+const EnabledEffect& converterOf(const SimulationSettings& settings) {
+  return *std::find_if(settings.effects.begin(), settings.effects.end(), [&](const EnabledEffect& effect) {
+    const EffectInfo& info = libraryOf(settings).info(effect.id);
+    return info.required && info.stage == ChainStage::kSample;
+  });
+}
+
+namespace {
+
+template <typename Unwanted>
+SimulationSettings without(SimulationSettings settings, Unwanted unwanted) {
+  auto& effects = settings.effects;
+  effects.erase(std::remove_if(effects.begin(), effects.end(),
+                               [&](const EnabledEffect& effect) {
+                                 return unwanted(libraryOf(settings).info(effect.id));
+                               }),
+                effects.end());
+  return settings;
+}
+
+}  // namespace
+
+SimulationSettings withoutNoise(SimulationSettings settings) {
+  return without(std::move(settings), [](const EffectInfo& info) { return info.stochastic; });
+}
+
+SimulationSettings withoutChance(SimulationSettings settings) {
+  settings =
+      without(std::move(settings), [](const EffectInfo& info) { return info.stochastic || info.by_chance; });
+  for (EnabledEffect& effect : settings.effects) {
+    for (const EffectParameter& step : walks(libraryOf(settings).info(effect.id)))
+      effect.values[step.name] = step.neutral;
+  }
+  return settings;
 }
 
 }  // namespace fsr::simulation

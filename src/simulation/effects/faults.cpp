@@ -1,13 +1,36 @@
-#include "simulation/effects/faults.h"
-
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "simulation/effects/effect_library.h"
+#include "statistics/random_stream.h"
 
 namespace fsr::simulation {
 
 namespace {
+
+// Bursts in which a line loses contact: time is cut into pieces as long as a burst, and each piece is
+// bad with probability `share`, by the seed.
+class LooseLine {
+ public:
+  /// `lines`: how many the matrix has. Throws InputError.
+  LooseLine(const std::string& id, std::size_t lines, const EffectValues& values,
+            const EffectContext& context);
+
+  std::size_t line() const { return line_; }
+  /// What is left of the line's conductance at a rig time [s]; exactly 1 between bursts.
+  double contact(double time) const;
+
+ private:
+  std::size_t line_;
+  double share_;
+  double burst_;  // [s]
+  double depth_;
+  statistics::RandomStream stream_;
+};
 
 // A taxel, row or column by the seed.
 std::size_t picked(const statistics::RandomStream& stream, std::uint64_t position, std::size_t choices) {
@@ -21,8 +44,7 @@ void requireWhole(const std::string& id, const std::string& parameter, double va
                              ", but must be a whole number, " + settings::Range{low, high}.text());
 }
 
-}  // namespace
-
+// The parameters `taxels`, `first` and `start` that say which taxels are faulty, and since when.
 std::vector<EffectParameter> faultyTaxelParameters() {
   return {
       strength("taxels", "how many", {0, 4096, "taxels"}, 1).within(1, 4096),
@@ -31,6 +53,8 @@ std::vector<EffectParameter> faultyTaxelParameters() {
   };
 }
 
+// The taxels that those parameters pick: `first`, or one by the seed where it is -1, and the others by
+// the seed; none twice. Throws InputError where the matrix has no such taxel.
 std::vector<std::size_t> faultyTaxels(const std::string& id, const EffectValues& values,
                                       const EffectContext& context) {
   const std::size_t taxels = context.layout.size.taxels();
@@ -47,6 +71,7 @@ std::vector<std::size_t> faultyTaxels(const std::string& id, const EffectValues&
   return faulty;
 }
 
+// The parameters `share`, `line`, `burst` and `depth` of a line with a loose contact.
 std::vector<EffectParameter> looseLineParameters(const std::string& line) {
   return {
       strength("share", "share of time without contact", {0, 1, ""}, 0.05).within(1e-4, 1),
@@ -71,6 +96,160 @@ LooseLine::LooseLine(const std::string& id, std::size_t lines, const EffectValue
 double LooseLine::contact(double time) const {
   const auto piece = static_cast<std::uint64_t>(std::floor(std::max(time, 0.0) / burst_));
   return stream_.uniform(piece) < share_ ? 1 - depth_ : 1;
+}
+
+}  // namespace
+
+// A taxel has no contact.
+//
+//     G_i = 0 from a start time on
+//
+// Causes: a cracked trace, a detached layer.
+
+namespace {
+
+class DeadTaxel : public Effect {
+ public:
+  DeadTaxel(const EffectValues& values, const EffectContext& context)
+      : start_(values.at("start")), dead_(faultyTaxels("dead_taxel", values, context)) {}
+
+  void apply(const RigSample& sample, TaxelSignals& signals) override {
+    if (sample.time < start_) return;
+    for (const std::size_t taxel : dead_) signals.conductance[taxel] = 0;
+  }
+
+ private:
+  double start_;  // [s]
+  std::vector<std::size_t> dead_;
+};
+
+}  // namespace
+
+EffectEntry deadTaxel() {
+  EffectInfo info;
+  info.id = "dead_taxel";
+  info.summary = "a taxel that conducts nothing";
+  info.equation = "G_i = 0";
+  info.source = "fault";
+  info.stage = ChainStage::kConductance;
+  info.level = EffectLevel::kTaxel;
+  info.kind = EffectKind::kDetector;
+  info.parameters = faultyTaxelParameters();
+  info.depends_on = {Covariate::kTaxel};
+  info.collinear = {"stuck_taxel"};
+  info.detector = Detector::kDeadTaxels;
+  return {info, makeEffect<DeadTaxel>};
+}
+
+// A taxel always has the same reading.
+//
+//     y_i = const from a start time on   [counts]
+//
+// Causes: a short circuit, a crease, a converter that returns an old value. With `value` -1 the taxel keeps
+// the reading that it had when the fault began.
+
+namespace {
+
+class StuckTaxel : public Effect {
+ public:
+  StuckTaxel(const EffectValues& values, const EffectContext& context)
+      : start_(values.at("start")),
+        value_(values.at("value")),
+        stuck_(faultyTaxels("stuck_taxel", values, context)) {
+    state_.assign(1 + stuck_.size(), 0.0);  // whether the fault has begun, then the readings [counts]
+  }
+
+  void apply(const RigSample& sample, TaxelSignals& signals) override {
+    if (sample.time < start_) return;
+    for (std::size_t k = 0; k < stuck_.size(); ++k) {
+      double& reading = signals.reading[stuck_[k]];
+      if (state_[0] == 0) state_[k + 1] = value_ < 0 ? reading : value_;
+      reading = state_[k + 1];
+    }
+    state_[0] = 1;
+  }
+
+ private:
+  double start_;  // [s]
+  double value_;  // [counts]
+  std::vector<std::size_t> stuck_;
+};
+
+}  // namespace
+
+EffectEntry stuckTaxel() {
+  EffectInfo info;
+  info.id = "stuck_taxel";
+  info.summary = "a taxel that always reads the same";
+  info.equation = "y_i = const";
+  info.source = "fault";
+  info.stage = ChainStage::kReading;
+  info.level = EffectLevel::kTaxel;
+  info.kind = EffectKind::kDetector;
+  info.parameters = faultyTaxelParameters();
+  info.parameters.push_back(
+      shape("value", "where it is stuck; -1 = where the fault found it", {-1, 65535, "counts"}, 1000));
+  info.depends_on = {Covariate::kTaxel};
+  info.collinear = {"dead_taxel"};
+  info.detector = Detector::kStuckTaxels;
+  return {info, makeEffect<StuckTaxel>};
+}
+
+// The wire of a row or of a column has a bad contact. All its taxels lose conductance together, in bursts.
+//
+//     G_i = G_i (1 - depth) in a burst, for all taxels i of the line
+//
+// Causes: a crimped connector, a cracked tail. The form of a burst is an assumption.
+
+namespace {
+
+EffectInfo lineFaultInfo(const std::string& line, EffectLevel level, Covariate covariate, Detector detector) {
+  EffectInfo info;
+  info.id = line + "_fault";
+  info.summary = "a " + line + " loses contact in bursts";
+  info.equation = "G_i *= 1 - depth in a burst, i in the " + line;
+  info.source = "fault";
+  info.stage = ChainStage::kReadOut;
+  info.level = level;
+  info.kind = EffectKind::kDetector;
+  info.parameters = looseLineParameters(line);
+  info.depends_on = {covariate, Covariate::kClockTime};
+  info.collinear = {level == EffectLevel::kRow ? "column_fault" : "row_fault"};
+  info.by_chance = true;
+  info.detector = detector;
+  return info;
+}
+
+template <bool row>
+class LineFault : public Effect {
+ public:
+  LineFault(const EffectValues& values, const EffectContext& context)
+      : size_(context.layout.size),
+        line_(row ? "row_fault" : "column_fault", row ? size_.rows : size_.columns, values, context) {}
+
+  void apply(const RigSample& sample, TaxelSignals& signals) override {
+    const double contact = line_.contact(sample.time);
+    const std::size_t columns = size_.columns;
+    const std::size_t first = row ? line_.line() * columns : line_.line();
+    const std::size_t taxels = row ? columns : size_.rows;
+    for (std::size_t k = 0; k < taxels; ++k) signals.conductance[first + k * (row ? 1 : columns)] *= contact;
+  }
+
+ private:
+  matrix::MatrixSize size_;
+  LooseLine line_;
+};
+
+}  // namespace
+
+EffectEntry rowFault() {
+  return {lineFaultInfo("row", EffectLevel::kRow, Covariate::kRow, Detector::kRowFaults),
+          makeEffect<LineFault<true>>};
+}
+
+EffectEntry columnFault() {
+  return {lineFaultInfo("column", EffectLevel::kColumn, Covariate::kColumn, Detector::kColumnFaults),
+          makeEffect<LineFault<false>>};
 }
 
 }  // namespace fsr::simulation

@@ -31,7 +31,7 @@
 #include <sstream>
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "rheology/play_operator.h"
+#include "rheology/memory.h"
 #include "simulation/effects/effect_library.h"
 
 namespace fsr::simulation {
@@ -40,38 +40,6 @@ namespace {
 
 constexpr int kPlays = 6;
 constexpr int kRayleighPlays = 64;
-
-EffectInfo hysteresisInfo() {
-  EffectInfo info;
-  info.id = "hysteresis";
-  info.summary = "loading against unloading, whatever the rate";
-  info.equation = "u = P_e - h sum_i w_i (P_e - play_{r_i}(P_e + s r_i))";
-  info.source = "Prandtl-Ishlinskii, or Rayleigh 1887; Tangio TPE-500 5 %, Interlink FSR 400 10 %";
-  info.stage = ChainStage::kMemory;
-  info.level = EffectLevel::kRig;
-  info.kind = EffectKind::kGrid;
-  info.parameters = {
-      strength("loop_width", "distance of the branches of a wide loop", {0, 0.5, "of span"}, 0.05)
-          .within(0.005, 0.2),
-      shape("span", "pressure that loop_width is a share of", {1e3, 10e6, "Pa"}, 620e3),
-      shape("reach", "R, half the way after a turn over which the loop opens", {100, 10e6, "Pa"}, 150e3)
-          .trying({50e3, 100e3, 150e3, 250e3}),
-      shape("one_sided", "s, 0 = both branches depart alike, 1 = only unloading", {0, 1, ""}, 0)
-          .trying({0, 1}),
-      shape("gain_share", "v, 0 = acts like load, 1 = on the sensitivity", {0, 1, ""}, 0).trying({0, 1}),
-      shape("rayleigh", "0 = loops of straight pieces, 1 = loops of parabolas (Rayleigh's law)", {0, 1, ""},
-            0)
-          .offAt(0)
-          .trying({0, 1}),
-  };
-  info.sign = SignRule::kPositive;
-  info.depends_on = {Covariate::kDirection, Covariate::kPressure, Covariate::kPreviousExtremes};
-  info.needs = {Evidence::kTwoRampRates};
-  info.collinear = {"creep", "time_skew", "seal_leak", "relaxation"};
-  info.experiment = Experiment::kTwoRampRates;
-  info.mixture = true;
-  return info;
-}
 
 /// Plays of the same weight.
 struct Plays {
@@ -156,7 +124,35 @@ class Hysteresis : public Effect {
 }  // namespace
 
 EffectEntry hysteresis() {
-  return {hysteresisInfo(), makeEffect<Hysteresis>};
+  EffectInfo info;
+  info.id = "hysteresis";
+  info.summary = "loading against unloading, whatever the rate";
+  info.equation = "u = P_e - h sum_i w_i (P_e - play_{r_i}(P_e + s r_i))";
+  info.source = "Prandtl-Ishlinskii, or Rayleigh 1887; Tangio TPE-500 5 %, Interlink FSR 400 10 %";
+  info.stage = ChainStage::kMemory;
+  info.level = EffectLevel::kRig;
+  info.kind = EffectKind::kGrid;
+  info.parameters = {
+      strength("loop_width", "distance of the branches of a wide loop", {0, 0.5, "of span"}, 0.05)
+          .within(0.005, 0.2),
+      shape("span", "pressure that loop_width is a share of", {1e3, 10e6, "Pa"}, 620e3),
+      shape("reach", "R, half the way after a turn over which the loop opens", {100, 10e6, "Pa"}, 150e3)
+          .trying({50e3, 100e3, 150e3, 250e3}),
+      shape("one_sided", "s, 0 = both branches depart alike, 1 = only unloading", {0, 1, ""}, 0)
+          .trying({0, 1}),
+      shape("gain_share", "v, 0 = acts like load, 1 = on the sensitivity", {0, 1, ""}, 0).trying({0, 1}),
+      shape("rayleigh", "0 = loops of straight pieces, 1 = loops of parabolas (Rayleigh's law)", {0, 1, ""},
+            0)
+          .offAt(0)
+          .trying({0, 1}),
+  };
+  info.sign = SignRule::kPositive;
+  info.depends_on = {Covariate::kDirection, Covariate::kPressure, Covariate::kPreviousExtremes};
+  info.needs = {Evidence::kTwoRampRates};
+  info.collinear = {"creep", "time_skew", "seal_leak", "relaxation"};
+  info.experiment = Experiment::kTwoRampRates;
+  info.mixture = true;
+  return {info, makeEffect<Hysteresis>};
 }
 
 }  // namespace fsr::simulation

@@ -15,35 +15,6 @@ namespace fsr::simulation {
 
 namespace {
 
-EffectInfo staticCurveInfo() {
-  EffectInfo info;
-  info.id = "static_curve";
-  info.summary = "conductance under a steady load, taxel by taxel";
-  info.equation = "G = G0 + k g (max(u, 0) / P_ref)^n / (1 + (u / P_s)^n)";
-  info.source = "power law of rough contacts (Holm) with soft saturation";
-  info.stage = ChainStage::kConductance;
-  info.level = EffectLevel::kTaxel;
-  info.kind = EffectKind::kBase;
-  info.required = true;
-  info.parameters = {
-      shape("conductance", "k, at the reference pressure but for saturation", {1e-9, 1, "S"}, 3e-4)
-          .inBaseFit(1),
-      shape("reference_pressure", "P_ref", {1e3, 10e6, "Pa"}, 620e3),
-      shape("exponent", "n", {0.2, 3, ""}, 0.9).within(0.5, 1.5).inBaseFit(2),
-      shape("saturation_pressure", "P_s, .inf = none", {1e3, INFINITY, "Pa"}, 1.2e6)
-          .offAt(INFINITY)
-          .inBaseFit(3),
-      strength("offset", "G0, unloaded", {0, 1, "S"}, 0).within(0, 1e-4).inBaseFit(4),
-      scatter("conductance_scatter", "deviation of k from taxel to taxel, relative", {0, 0.5, ""}, 0.05)
-          .fromTaxelDeviation(),
-      scatter("exponent_scatter", "deviation of n from taxel to taxel, relative", {0, 0.2, ""}, 0),
-  };
-  info.depends_on = {Covariate::kPressure, Covariate::kTaxel};
-  info.collinear = {"turn_on",      "trapped_gas", "edge_stiffness",  "crosstalk",
-                    "supply_droop", "saturation",  "transducer_error"};
-  return info;
-}
-
 class StaticCurve : public Effect {
  public:
   StaticCurve(const EffectValues& values, const EffectContext& context)
@@ -78,7 +49,32 @@ class StaticCurve : public Effect {
 }  // namespace
 
 EffectEntry staticCurve() {
-  return {staticCurveInfo(), makeEffect<StaticCurve>};
+  EffectInfo info;
+  info.id = "static_curve";
+  info.summary = "conductance under a steady load, taxel by taxel";
+  info.equation = "G = G0 + k g (max(u, 0) / P_ref)^n / (1 + (u / P_s)^n)";
+  info.source = "power law of rough contacts (Holm) with soft saturation";
+  info.stage = ChainStage::kConductance;
+  info.level = EffectLevel::kTaxel;
+  info.kind = EffectKind::kBase;
+  info.required = true;
+  info.parameters = {
+      shape("conductance", "k, at the reference pressure but for saturation", {1e-9, 1, "S"}, 3e-4)
+          .inBaseFit(1),
+      shape("reference_pressure", "P_ref", {1e3, 10e6, "Pa"}, 620e3),
+      shape("exponent", "n", {0.2, 3, ""}, 0.9).within(0.5, 1.5).inBaseFit(2),
+      shape("saturation_pressure", "P_s, .inf = none", {1e3, INFINITY, "Pa"}, 1.2e6)
+          .offAt(INFINITY)
+          .inBaseFit(3),
+      strength("offset", "G0, unloaded", {0, 1, "S"}, 0).within(0, 1e-4).inBaseFit(4),
+      scatter("conductance_scatter", "deviation of k from taxel to taxel, relative", {0, 0.5, ""}, 0.05)
+          .fromTaxelDeviation(),
+      scatter("exponent_scatter", "deviation of n from taxel to taxel, relative", {0, 0.2, ""}, 0),
+  };
+  info.depends_on = {Covariate::kPressure, Covariate::kTaxel};
+  info.collinear = {"turn_on",      "trapped_gas", "edge_stiffness",  "crosstalk",
+                    "supply_droop", "saturation",  "transducer_error"};
+  return {info, makeEffect<StaticCurve>};
 }
 
 }  // namespace fsr::simulation

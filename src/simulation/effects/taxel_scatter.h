@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "simulation/effect.h"
+#include "simulation/effects/effect_library.h"
 
 namespace fsr::simulation {
 

@@ -15,7 +15,7 @@
 
 #include <cmath>
 
-#include "rheology/exponential_memory.h"
+#include "rheology/memory.h"
 #include "simulation/effects/effect_library.h"
 
 namespace fsr::simulation {
@@ -23,40 +23,6 @@ namespace fsr::simulation {
 namespace {
 
 constexpr double kZeroCelsius = 273.15;  // [K]
-
-EffectInfo temperatureInfo() {
-  EffectInfo info;
-  info.id = "temperature";
-  info.summary = "sensitivity changed by temperature, with a lag";
-  info.equation = "g *= exp(a T_0^2 (1 / T_0 - 1 / T) + b (T - T_0)^2), P_e += z (T_z - T_0)";
-  info.source = "Arrhenius; FlexiForce A201 0.36 % a kelvin (not verified), Interlink FSR 400";
-  info.stage = ChainStage::kGain;
-  info.level = EffectLevel::kRig;
-  info.kind = EffectKind::kGrid;
-  info.parameters = {
-      strength("coefficient", "a, relative change", {-0.05, 0.05, "1/K"}, 0.003).within(-0.01, 0.01),
-      strength("quadratic", "b, relative change", {-0.001, 0.001, "1/K^2"}, 0).within(-1e-4, 1e-4),
-      shape("lag", "tau, time constant of the sheet behind the gas", {0.01, 1e5, "s"}, 60)
-          .trying({1, 10, 60, 300, 1000}),
-      // Not tried: another reference only moves a part of b to a, and the course of the start is that of
-      // drift.
-      shape("reference", "T_0, where the sensitivity is nominal", {-40, 125, "degree Celsius"},
-            kRoomTemperature)
-          .offAt(kRoomTemperature),
-      shape("start", "s, temperature of the sheet above the gas at the first scan", {-50, 50, "K"}, 0)
-          .offAt(0),
-      strength("zero_shift", "z, shift of the zero that acts like load", {-10e3, 10e3, "Pa/K"}, 0)
-          .within(-1e3, 1e3),
-      shape("zero_lag", "time constant of T_z behind the gas", {0.01, 1e5, "s"}, 60).trying({1, 60, 1000}),
-  };
-  info.sign = SignRule::kEither;
-  info.depends_on = {Covariate::kTemperature, Covariate::kClockTime};
-  info.needs = {Evidence::kThermometer};
-  info.collinear = {"drift", "creep", "wear", "break_in"};
-  info.experiment = Experiment::kTwoAmbients;
-  info.slow = true;
-  return info;
-}
 
 class Temperature : public Effect {
  public:
@@ -114,7 +80,37 @@ class Temperature : public Effect {
 }  // namespace
 
 EffectEntry temperature() {
-  return {temperatureInfo(), makeEffect<Temperature>};
+  EffectInfo info;
+  info.id = "temperature";
+  info.summary = "sensitivity changed by temperature, with a lag";
+  info.equation = "g *= exp(a T_0^2 (1 / T_0 - 1 / T) + b (T - T_0)^2), P_e += z (T_z - T_0)";
+  info.source = "Arrhenius; FlexiForce A201 0.36 % a kelvin (not verified), Interlink FSR 400";
+  info.stage = ChainStage::kGain;
+  info.level = EffectLevel::kRig;
+  info.kind = EffectKind::kGrid;
+  info.parameters = {
+      strength("coefficient", "a, relative change", {-0.05, 0.05, "1/K"}, 0.003).within(-0.01, 0.01),
+      strength("quadratic", "b, relative change", {-0.001, 0.001, "1/K^2"}, 0).within(-1e-4, 1e-4),
+      shape("lag", "tau, time constant of the sheet behind the gas", {0.01, 1e5, "s"}, 60)
+          .trying({1, 10, 60, 300, 1000}),
+      // Not tried: another reference only moves a part of b to a, and the course of the start is that of
+      // drift.
+      shape("reference", "T_0, where the sensitivity is nominal", {-40, 125, "degree Celsius"},
+            kRoomTemperature)
+          .offAt(kRoomTemperature),
+      shape("start", "s, temperature of the sheet above the gas at the first scan", {-50, 50, "K"}, 0)
+          .offAt(0),
+      strength("zero_shift", "z, shift of the zero that acts like load", {-10e3, 10e3, "Pa/K"}, 0)
+          .within(-1e3, 1e3),
+      shape("zero_lag", "time constant of T_z behind the gas", {0.01, 1e5, "s"}, 60).trying({1, 60, 1000}),
+  };
+  info.sign = SignRule::kEither;
+  info.depends_on = {Covariate::kTemperature, Covariate::kClockTime};
+  info.needs = {Evidence::kThermometer};
+  info.collinear = {"drift", "creep", "wear", "break_in"};
+  info.experiment = Experiment::kTwoAmbients;
+  info.slow = true;
+  return {info, makeEffect<Temperature>};
 }
 
 }  // namespace fsr::simulation

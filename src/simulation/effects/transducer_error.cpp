@@ -17,28 +17,6 @@ namespace {
 constexpr double kLow = -103e3;   // [Pa]
 constexpr double kSpan = 1137e3;  // [Pa]
 
-EffectInfo transducerErrorInfo() {
-  EffectInfo info;
-  info.id = "transducer_error";
-  info.summary = "the pressure reference itself is off";
-  info.equation = "P_ref = P + e_0 + e_1 P + 4 e_2 P_span x (1 - x)";
-  info.source = "Omega PX309 in the paper: 0.25 % best straight line of 1137 kPa";
-  info.stage = ChainStage::kReference;
-  info.level = EffectLevel::kRig;
-  info.kind = EffectKind::kAdditive;
-  info.parameters = {
-      strength("offset", "e_0", {-20e3, 20e3, "Pa"}, 0).within(-5e3, 5e3),
-      strength("gain", "e_1", {-0.2, 0.2, ""}, 0).within(-0.01, 0.01),
-      strength("bow", "e_2, share of 1137 kPa", {-0.05, 0.05, ""}, 0.0025).within(-0.005, 0.005),
-  };
-  info.sign = SignRule::kEither;
-  info.depends_on = {Covariate::kPressure};
-  info.needs = {Evidence::kSecondReference};
-  info.collinear = {"static_curve", "trapped_gas"};
-  info.experiment = Experiment::kSecondReference;
-  return info;
-}
-
 class TransducerError : public Effect {
  public:
   TransducerError(const EffectValues& values, const EffectContext&)
@@ -58,7 +36,25 @@ class TransducerError : public Effect {
 }  // namespace
 
 EffectEntry transducerError() {
-  return {transducerErrorInfo(), makeEffect<TransducerError>};
+  EffectInfo info;
+  info.id = "transducer_error";
+  info.summary = "the pressure reference itself is off";
+  info.equation = "P_ref = P + e_0 + e_1 P + 4 e_2 P_span x (1 - x)";
+  info.source = "Omega PX309 in the paper: 0.25 % best straight line of 1137 kPa";
+  info.stage = ChainStage::kReference;
+  info.level = EffectLevel::kRig;
+  info.kind = EffectKind::kAdditive;
+  info.parameters = {
+      strength("offset", "e_0", {-20e3, 20e3, "Pa"}, 0).within(-5e3, 5e3),
+      strength("gain", "e_1", {-0.2, 0.2, ""}, 0).within(-0.01, 0.01),
+      strength("bow", "e_2, share of 1137 kPa", {-0.05, 0.05, ""}, 0.0025).within(-0.005, 0.005),
+  };
+  info.sign = SignRule::kEither;
+  info.depends_on = {Covariate::kPressure};
+  info.needs = {Evidence::kSecondReference};
+  info.collinear = {"static_curve", "trapped_gas"};
+  info.experiment = Experiment::kSecondReference;
+  return {info, makeEffect<TransducerError>};
 }
 
 }  // namespace fsr::simulation

@@ -1,7 +1,7 @@
 // What training learns of how the sheet rests, on a simulated rig: nothing is said against sound mounts, a
 // surface that is declared wrongly is named, and what is missing is said in a sentence.
 
-#include "calibration/shape/shape_training.h"
+#include "calibration/shape/learn_from_mounts.h"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@
 #include "fsr_pressure_map/calibration/calibration.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "fsr_pressure_map/simulation/simulate.h"
-#include "simulation/read_settings.h"
+#include "simulation/settings_text.h"
 #include "support/simulated_rig.h"
 
 namespace fsr::calibration {

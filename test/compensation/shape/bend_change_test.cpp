@@ -1,6 +1,6 @@
 // A planted sheet lies on cones: how much its bend changes is asked back from its readings at rest.
 
-#include "compensation/shape/bend_change.h"
+#include "compensation/shape/learn_shape.h"
 
 #include <gtest/gtest.h>
 

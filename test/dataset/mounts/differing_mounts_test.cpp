@@ -1,4 +1,4 @@
-#include "dataset/mounts/differing_mounts.h"
+#include "dataset/mounts.h"
 
 #include <gtest/gtest.h>
 
@@ -77,8 +77,8 @@ TEST(DifferingMounts, DISABLED_InManyDays) {
           wrong[!remark.certain()] += remark.sentence.find("mount 5") != std::string::npos;
       }
       std::cout << rig << ", " << rounds << " mounts a surface: " << clean[0] << " + " << clean[1]
-                << " clean days with a remark, " << wrong[0] << " + " << wrong[1] << " wrong mounts named, of "
-                << kSeeds << std::endl;
+                << " clean days with a remark, " << wrong[0] << " + " << wrong[1]
+                << " wrong mounts named, of " << kSeeds << std::endl;
     }
   }
 }

@@ -1,4 +1,4 @@
-#include "dataset/mounts/mount_remarks.h"
+#include "dataset/mounts.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "dataset/unsound/contradictions.h"
+#include "dataset/unsound_spans.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "dataset/unsound/unsound_spans.h"
+#include "dataset/unsound_spans.h"
 
 #include <gtest/gtest.h>
 

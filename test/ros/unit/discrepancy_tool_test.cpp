@@ -15,7 +15,7 @@
 #include "report/verdict_file.h"
 #include "ros/bags/bag_writer.h"
 #include "ros/tools/simulate_tool.h"
-#include "simulation/simulation_text.h"
+#include "simulation/settings_text.h"
 #include "support/source_dir.h"
 #include "support/synthetic_recording.h"
 

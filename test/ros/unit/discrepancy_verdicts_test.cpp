@@ -13,7 +13,7 @@
 #include "ros/bags/bag_writer.h"
 #include "ros/tools/discrepancy_tool.h"
 #include "settings/replace_file.h"
-#include "simulation/simulation_text.h"
+#include "simulation/settings_text.h"
 #include "statistics/random_stream.h"
 
 namespace fsr_ros {

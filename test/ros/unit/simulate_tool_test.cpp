@@ -24,7 +24,7 @@
 #include "simulation/portrait.h"
 #include "simulation/pressure_profile.h"
 #include "simulation/session.h"
-#include "simulation/simulation_text.h"
+#include "simulation/settings_text.h"
 #include "support/source_dir.h"
 
 namespace fsr_ros {

@@ -17,7 +17,7 @@
 #include "ros/tools/discrepancy_tool.h"
 #include "ros/tools/study_tool.h"
 #include "ros/tools/train_tool.h"
-#include "simulation/simulation_text.h"
+#include "simulation/settings_text.h"
 #include "support/source_dir.h"
 #include "support/synthetic_recording.h"
 
