@@ -131,12 +131,12 @@ std::optional<std::vector<std::string>> wordsOfCheck(int argc, const char* const
 
 int checkInstead(const std::string& earlier, const std::vector<std::string>& words, std::ostream& out) {
   std::vector<const char*> arguments = {"check_calibration"};
-  out << earlier << " is now check_calibration:";
+  std::string now = earlier + " is now check_calibration:";
   for (const std::string& word : words) {
-    out << ' ' << word;
+    now += ' ' + word;
     arguments.push_back(word.c_str());
   }
-  out << '\n';
+  if (words != std::vector<std::string>{"--help"}) out << now << '\n';  // man pages are made of the help
   return checkCalibrationTool(static_cast<int>(arguments.size()), arguments.data(), out);
 }
 
