@@ -20,10 +20,10 @@
 #include "ros/live/serve.h"
 #include "ros/live/training_server.h"
 #include "ros/live/view_server.h"
+#include "ros/recording/conduct_server.h"
 #include "ros/recording/rechecker.h"
 #include "ros/recording/recorder.h"
 #include "ros/recording/session_server.h"
-#include "ros/recording/conduct_server.h"
 #include "settings/foreign_error.h"
 
 namespace fsr_ros {

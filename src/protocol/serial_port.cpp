@@ -1,5 +1,7 @@
 #include "protocol/serial_port.h"
 
+#include "settings/joined.h"
+
 #include <fcntl.h>
 #include <grp.h>
 #include <poll.h>
@@ -122,18 +124,12 @@ void addEntries(std::vector<std::string>& found, const fs::path& folder, const s
   found.insert(found.end(), entries.begin(), entries.end());
 }
 
-std::string listOf(const std::vector<std::string>& ports) {
-  std::string text;
-  for (const std::string& port : ports) text += (text.empty() ? "" : ", ") + port;
-  return text;
-}
-
 std::string missing(const std::string& path) {
   const std::vector<std::string> ports = serialPortCandidates();
   return "there is no serial port " + path + ": " +
          (ports.empty()
               ? "plug the board in (no /dev/serial/by-id/*, /dev/ttyACM* or /dev/ttyUSB* is there either)"
-              : "plug the board in, or set serial_port to one that is there: " + listOf(ports));
+              : "plug the board in, or set serial_port to one that is there: " + settings::joined(ports));
 }
 
 std::string groupOf(const std::string& path) {

@@ -1,7 +1,6 @@
 #include "report/check_report.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <iomanip>
 #include <sstream>
 
@@ -100,7 +99,8 @@ std::string shapeText(const compensation::ShapeModel& model,
     table.row({mount.name, declaredCurvature(mount.surface), number(check.estimate.curvature),
                number(check.estimate.low), number(check.estimate.high), shapeVerdict(check.verdict),
                namesText(check.possible)});
-    if (check.verdict != calibration::ShapeVerdict::kAgrees) sentences += mount.name + ": " + check.sentence + '\n';
+    if (check.verdict != calibration::ShapeVerdict::kAgrees)
+      sentences += mount.name + ": " + check.sentence + '\n';
   }
   return "How the sheet rests before the first load: principal curvature [1/m]\n" + table.text() +
          changeTable(model, mounts) + sentences;
@@ -254,10 +254,6 @@ std::string checkJson(const check::CheckResult& result, const std::string& paren
   return dump(document);
 }
 
-std::string fullPath(const std::string& path) {
-  return std::filesystem::absolute(path).lexically_normal().string();
-}
-
 }  // namespace
 
 void requireCheckOutputs(const CheckOutputs& outputs) {
@@ -272,13 +268,13 @@ std::string writeCheck(const check::CheckResult& result, const std::string& pare
   if (result.child && !outputs.calibration.empty()) {
     child = calibration::saveCalibration(*result.child, outputs.calibration);
     text = "Calibration " + child + " (" + check::correctionText(result.child->correction) + ") written to " +
-           fullPath(outputs.calibration) + '\n';
+           settings::fullPath(outputs.calibration) + '\n';
   } else if (!outputs.calibration.empty()) {
-    text = "No calibration was written to " + fullPath(outputs.calibration) + '\n';
+    text = "No calibration was written to " + settings::fullPath(outputs.calibration) + '\n';
   }
   if (outputs.report.empty()) return text;
   settings::replaceFile(outputs.report, checkJson(result, parent, child));
-  return text + "Report written to " + fullPath(outputs.report) + '\n';
+  return text + "Report written to " + settings::fullPath(outputs.report) + '\n';
 }
 
 }  // namespace fsr::report

@@ -4,6 +4,7 @@
 #include "report/discrepancy_report.h"
 #include "report/members_yaml.h"
 #include "report/text_table.h"
+#include "settings/joined.h"
 #include "settings/number_text.h"
 
 namespace fsr::report {
@@ -20,7 +21,8 @@ std::string foretoldLine(const discrepancy::HeldOutGap& held) {
   std::vector<std::string> parts;
   for (const auto& [part, closed] : held.parts) parts.push_back(part + " " + percentText(closed, 0));
   return "Common trace explained on each " + held.by +
-         " with sizes fitted to the others: " + percentText(held.closed, 0) + " (" + joined(parts) + ").\n";
+         " with sizes fitted to the others: " + percentText(held.closed, 0) + " (" + settings::joined(parts) +
+         ").\n";
 }
 
 // "On each surface: flat 0.95 % FS before, 0.20 % FS after; ..."
@@ -31,7 +33,7 @@ std::string surfacesLine(const discrepancy::DiscrepancyReport& report) {
     if (!report.effects.empty()) part += " before, " + percentText(one.after, 2) + " FS after";
     parts.push_back(part);
   }
-  return parts.size() < 2 ? "" : "On each surface: " + joined(parts, "; ") + ".\n";
+  return parts.size() < 2 ? "" : "On each surface: " + settings::joined(parts, "; ") + ".\n";
 }
 
 std::string notTestable(const discrepancy::DiscrepancyReport& report) {
@@ -40,7 +42,8 @@ std::string notTestable(const discrepancy::DiscrepancyReport& report) {
     const bool has_one = !effect.experiment.empty() && effect.experiment != "none";
     effects.push_back(effect.id + (has_one ? " (" + effect.experiment + ")" : ""));
   }
-  return effects.empty() ? "" : "Not testable here (what would show it): " + joined(effects) + ".\n";
+  return effects.empty() ? ""
+                         : "Not testable here (what would show it): " + settings::joined(effects) + ".\n";
 }
 
 std::string opened(const std::vector<discrepancy::InputUse>& inputs) {

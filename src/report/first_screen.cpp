@@ -4,6 +4,7 @@
 
 #include "report/discrepancy_report.h"
 #include "report/text_table.h"
+#include "settings/joined.h"
 #include "settings/number_text.h"
 
 namespace fsr::report {
@@ -27,8 +28,8 @@ std::string roundedPercent(double share, int digits = 2) {
 
 std::string setsText(const std::vector<std::vector<std::string>>& sets) {
   std::vector<std::string> texts;
-  for (const auto& ids : sets) texts.push_back(joined(ids, " + "));
-  return joined(texts, " | ");
+  for (const auto& ids : sets) texts.push_back(settings::joined(ids, " + "));
+  return settings::joined(texts, " | ");
 }
 
 bool nothingFound(const DiscrepancyReport& report) {
@@ -77,9 +78,11 @@ std::string seenText(const DiscrepancyReport& report) {
     if (std::isfinite(one.at_map)) seen[one.at_map].push_back(one.id);
   }
   std::vector<std::string> texts;
-  for (const auto& [size, ids] : seen) texts.push_back(pressureText(size) + ": " + joined(ids));
+  for (const auto& [size, ids] : seen) texts.push_back(pressureText(size) + ": " + settings::joined(ids));
   std::string text =
-      texts.empty() ? "" : "Would have been seen, from this size at the map: " + joined(texts, "; ") + ".";
+      texts.empty()
+          ? ""
+          : "Would have been seen, from this size at the map: " + settings::joined(texts, "; ") + ".";
   for (const discrepancy::TooSmall& one : report.too_small) {
     text += (text.empty() ? "" : " ") + one.explanation + " is visible, but with " +
             pressureText(one.at_map) + " it is below the least gap of " + pressureText(report.least_gap) +
@@ -96,7 +99,7 @@ std::string answersText(const DiscrepancyReport& report) {
       text += " From " + pressureText(answer.at_map) + " at the map it would have been seen.";
     texts.push_back(text);
   }
-  return joined(texts, " ");
+  return settings::joined(texts, " ");
 }
 
 std::string situationText(const std::string& situation) {
@@ -113,7 +116,7 @@ std::string useText(const std::vector<discrepancy::GapInUse>& costs) {
         (std::isfinite(cost.after) ? " (" + settings::fixedText(cost.after / kKilopascal, 1) + " with it)"
                                    : ""));
   }
-  return parts.empty() ? "" : " Largest error in use: " + joined(parts) + ".";
+  return parts.empty() ? "" : " Largest error in use: " + settings::joined(parts) + ".";
 }
 
 std::string costText(const DiscrepancyReport& report) {
@@ -144,7 +147,7 @@ std::string scattersText(const DiscrepancyReport& report) {
                    [&](const auto& a, const auto& b) { return size(a) > size(b); });
   std::vector<std::string> texts;
   for (const discrepancy::Scatter& one : sorted) texts.push_back(scatterText(one));
-  return joined(texts, " ");
+  return settings::joined(texts, " ");
 }
 
 // Whether the cycles scatter by more than what is missing.
@@ -187,7 +190,7 @@ std::string gapText(const DiscrepancyReport& report) {
             settings::fixedText(gap.before_pressure / kKilopascal, 1) + " to " +
             settings::fixedText(gap.after_pressure / kKilopascal, 1) +
             " kPa: there, errors count more where the curves are flat.";
-  return text + (gap.held_out_by.empty() ? "" : " Held out by: " + joined(gap.held_out_by) + ".");
+  return text + (gap.held_out_by.empty() ? "" : " Held out by: " + settings::joined(gap.held_out_by) + ".");
 }
 
 // Experiments that would show the effects of the credible set that these recordings cannot show.
@@ -206,11 +209,11 @@ std::vector<std::string> needed(const DiscrepancyReport& report) {
 std::string nextText(const DiscrepancyReport& report) {
   std::vector<std::string> sentences;
   for (const discrepancy::NextExperiment& next : report.next_experiment) sentences.push_back(next.sentence);
-  if (!sentences.empty()) return joined(sentences, " ");
+  if (!sentences.empty()) return settings::joined(sentences, " ");
   if (!std::isfinite(report.gap.before))
     return "Record at least 10 cycles on each surface, so that some can be held out.";
   const std::vector<std::string> needs = needed(report);
-  if (!needs.empty()) return joined(needs) + ".";
+  if (!needs.empty()) return settings::joined(needs) + ".";
   switch (report.verdict) {
     case Verdict::kNone:
     case Verdict::kNotIdentifiable:

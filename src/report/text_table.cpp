@@ -29,12 +29,6 @@ std::string inKilopascals(double pressure, int decimals) {
   return settings::fixedText(pressure / 1e3, decimals);
 }
 
-std::string joined(const std::vector<std::string>& items, const std::string& between) {
-  std::string all;
-  for (const std::string& item : items) all += (all.empty() ? "" : between) + item;
-  return all;
-}
-
 std::string linesOf(const std::vector<std::string>& sentences, const std::string& head) {
   std::string text;
   for (const std::string& sentence : sentences) text += head + sentence + '\n';

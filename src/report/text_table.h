@@ -27,9 +27,6 @@ class TextTable {
 /// A pressure in kPa without the unit; "-" where there is none.
 std::string inKilopascals(double pressure, int decimals = 1);
 
-/// The items with `between` between them.
-std::string joined(const std::vector<std::string>& items, const std::string& between = ", ");
-
 /// Each sentence on a line of its own, with `head` before it.
 std::string linesOf(const std::vector<std::string>& sentences, const std::string& head);
 

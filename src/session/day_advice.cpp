@@ -4,6 +4,7 @@
 
 #include "session/day_report.h"
 #include "session/plan_report.h"
+#include "settings/joined.h"
 
 namespace fsr::session {
 
@@ -26,12 +27,6 @@ const std::map<std::string, std::string>& whatAssesses() {
        "Record cycles with two paces, with short and long dwells, and partial loops."},
       {"age of the sheet", "Record some cycles again in the next weeks, and recheck the calibration."}};
   return what;
-}
-
-std::string wordList(const Sentences& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
 }
 
 // A mount of which nothing was done is one sentence.
@@ -76,7 +71,8 @@ Sentences notAssessed(const Json& training) {
       sentences.push_back(what->second + " The line \"" + name + "\" is not assessed: " + note + ".");
   }
   if (!never.empty())
-    sentences.push_back("No recording of this sheet in the chamber assesses: " + wordList(never) + ".");
+    sentences.push_back("No recording of this sheet in the chamber assesses: " + settings::joined(never) +
+                        ".");
   return sentences;
 }
 
@@ -107,7 +103,7 @@ Sentences notTold(const Json& discrepancy) {
     if (group == groups.end()) group = groups.insert(group, {why, {}});
     group->second.push_back(effect.at("id").get<std::string>());
   }
-  for (const auto& [why, effects] : groups) sentences.push_back(wordList(effects) + ": " + why + ".");
+  for (const auto& [why, effects] : groups) sentences.push_back(settings::joined(effects) + ": " + why + ".");
   for (const Json& missing : discrepancy.at("gap").at("missing"))
     sentences.push_back(missing.get<std::string>());
   return sentences;

@@ -7,6 +7,7 @@
 #include "session/html_page.h"
 #include "session/plan_report.h"
 #include "session/session_files.h"
+#include "settings/joined.h"
 #include "settings/number_text.h"
 
 namespace fsr::session {
@@ -32,10 +33,8 @@ std::string attempts(std::size_t number) {
   return std::to_string(number) + (number == 1 ? " attempt" : " attempts") + " rejected";
 }
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text.empty() ? "none" : text;
+std::string namesOf(const std::vector<std::string>& bags) {
+  return bags.empty() ? "none" : settings::joined(bags);
 }
 
 bool rejects(const StepRemark& remark) {
@@ -111,7 +110,7 @@ void recorded(HtmlPage& page, const DayReport& day) {
     const StepCount counted = count(day, [&](const SessionStep& step) { return step.mount == mount.mount; });
     rows.push_back({std::to_string(mount.mount), mount.surface, std::to_string(counted.accepted),
                     std::to_string(counted.skipped), std::to_string(counted.open),
-                    std::to_string(counted.rejected), joined(bagsOf(day, mount))});
+                    std::to_string(counted.rejected), namesOf(bagsOf(day, mount))});
   }
   page.table(
       "Steps of each mount: number accepted, skipped, not reached; attempts rejected. Source: state of the "

@@ -16,6 +16,7 @@
 #include "fsr_pressure_map/calibration/calibration.h"
 #include "fsr_pressure_map/discrepancy/discrepancy.h"
 #include "session/plan_steps.h"
+#include "settings/joined.h"
 #include "settings/number_text.h"
 #include "simulation/effects/effect_library.h"
 #include "simulation/settings_text.h"
@@ -207,12 +208,6 @@ std::map<std::string, Sentences> effectsByReason(const Contents& contents) {
 
 // ---- text --------------------------------------------------------------------------------------------
 
-std::string commaList(const Sentences& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
-}
-
 std::string items(const Sentences& sentences) {
   std::string text;
   for (const std::string& sentence : sentences) text += "  - " + sentence + "\n";
@@ -238,13 +233,13 @@ Sentences needs(const SessionPlan& plan) {
   for (const simulation::ProgramPart& part : plan.program) parts.push_back(simulation::programText(part));
   const bool conditioned = plan.conditioning.cycles > 0;
   Sentences sentences = {
-      "Surfaces: " + commaList(surfaces) + ".",
+      "Surfaces: " + settings::joined(surfaces) + ".",
       "Chamber: up to " +
           settings::roundedKilopascals(conditioned ? conditioningPeak(plan) : largestPeak(plan), 4) + ".",
       plan.thermometer ? "A thermometer (topic temperature)." : "No thermometer.",
       conditioningText(plan),
-      "Order: " + commaList(order) + ".",
-      "On each mount, " + timeText(recordingDuration(plan)) + ": " + commaList(parts) + ". Rest of " +
+      "Order: " + settings::joined(order) + ".",
+      "On each mount, " + timeText(recordingDuration(plan)) + ": " + settings::joined(parts) + ". Rest of " +
           roundedText(plan.rest.before) + " s before and " + roundedText(plan.rest.after) + " s after."};
   for (const Break& one : plan.breaks)
     sentences.push_back("Break of " + timeText(one.duration) + " behind mount " + std::to_string(one.after) +
@@ -256,7 +251,7 @@ Sentences canTell(const SessionPlan& plan) {
   const Contents contents = contentsOf(plan);
   Sentences sentences;
   if (const Sentences effects = effectsToldBy(plan); !effects.empty())
-    sentences.push_back("discrepancy can name " + commaList(effects) + ".");
+    sentences.push_back("discrepancy can name " + settings::joined(effects) + ".");
   for (const Question& one : kQuestions) {
     if (one.amount(contents) > 0) sentences.push_back(told(one, one.amount(contents)));
   }
@@ -277,7 +272,8 @@ std::vector<std::string> limitsOf(const SessionPlan& plan) {
   }
   for (const auto& [reason, effects] : effectsByReason(contents)) {
     if (!reason.empty())
-      sentences.push_back("discrepancy cannot name alone: " + commaList(effects) + " (" + reason + ").");
+      sentences.push_back("discrepancy cannot name alone: " + settings::joined(effects) + " (" + reason +
+                          ").");
   }
   sentences.push_back(rangeText(contents));
   if (contents.mounts < kUnitsFor95) sentences.push_back(coverageText(contents.mounts));
@@ -299,7 +295,7 @@ std::vector<std::string> lacksBeside(const SessionPlan& whole, const SessionPlan
       if (!reason.empty() && std::count(told_by_whole.begin(), told_by_whole.end(), id)) lost.push_back(id);
     }
     if (!lost.empty())
-      sentences.push_back("discrepancy cannot name alone: " + commaList(lost) + " (" + reason + ").");
+      sentences.push_back("discrepancy cannot name alone: " + settings::joined(lost) + " (" + reason + ").");
   }
   if (less.curvatures.front() > more.curvatures.front() || less.curvatures.back() < more.curvatures.back() ||
       less.highest < more.highest)

@@ -73,6 +73,10 @@ void requireReplaceable(const std::string& path, const std::string& kind) {
   if (::access(parent.empty() ? "." : parent.c_str(), W_OK | X_OK) != 0) throw cannotWrite(path, errno);
 }
 
+std::string fullPath(const std::string& path) {
+  return fs::absolute(path).lexically_normal().string();
+}
+
 bool sameFile(const std::string& a, const std::string& b) {
   std::error_code error;
   if (fs::equivalent(a, b, error) && !error) return true;

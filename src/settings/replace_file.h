@@ -19,6 +19,9 @@ void replaceFile(const std::string& path, const std::string& content);
 /// not known yet. Call it before a long computation.
 void requireReplaceable(const std::string& path, const std::string& kind = "");
 
+/// The path from the root, as messages show it.
+std::string fullPath(const std::string& path);
+
 /// Whether two names, however they are spelled, stand for the same file. It need not exist.
 bool sameFile(const std::string& a, const std::string& b);
 

@@ -8,6 +8,7 @@
 #include <set>
 #include <sstream>
 
+#include "settings/joined.h"
 #include "settings/regular_file.h"
 
 namespace fsr::settings {
@@ -32,12 +33,6 @@ std::string oneLine(const YAML::Node& node) {
   if (node.IsSequence()) return "a list of " + std::to_string(node.size());
   if (node.IsMap()) return "a mapping";
   return "empty";
-}
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const auto& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
 }
 
 // yaml-cpp silently keeps the last of two equal keys; here a duplicate key is an error. So is a key that is a

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ros/bags/resource_path.h"
+#include "settings/joined.h"
 #include "settings/number_text.h"
 
 namespace fsr_ros {
@@ -30,12 +31,6 @@ const std::vector<std::string> kUses = {"chamber", "socket", "bench"};
 const std::vector<std::string> kMounts = {"fixture", "mould", "limb", "liner", "socket_wall"};
 const std::vector<std::string> kKinds = {"cycle_start", "conditioning", "don",  "doff",
                                          "step",        "sync",         "note", "reject"};
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const auto& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
-}
 
 }  // namespace
 
@@ -148,8 +143,8 @@ bool SessionServer::mark(fsr_pressure_map::Mark::Request& request,
                          fsr_pressure_map::Mark::Response& response) {
   response.success = std::find(kKinds.begin(), kKinds.end(), request.kind) != kKinds.end();
   if (!response.success) {
-    response.message =
-        "kind is '" + request.kind + "', but must be one of " + joined(kKinds) + "; nothing was marked";
+    response.message = "kind is '" + request.kind + "', but must be one of " + fsr::settings::joined(kKinds) +
+                       "; nothing was marked";
     return true;
   }
   fsr_pressure_map::Event event;

@@ -5,6 +5,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "report/verdict_file.h"
+#include "settings/joined.h"
 #include "simulation/effects/effect_library.h"
 
 namespace fsr_ros {
@@ -15,9 +16,7 @@ using fsr::compensation::HistoryFamily;
 using fsr::simulation::Covariate;
 
 std::string listed(const std::vector<std::string>& effects) {
-  std::string text;
-  for (const std::string& effect : effects) text += (text.empty() ? "" : ", ") + effect;
-  return text.empty() ? "no effect" : text;
+  return effects.empty() ? "no effect" : fsr::settings::joined(effects);
 }
 
 }  // namespace

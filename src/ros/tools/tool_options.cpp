@@ -35,10 +35,6 @@ unsigned threadsOf(const fsr::settings::CommandLine& line) {
   return static_cast<unsigned>(line.integer("threads", 0, {0, 1024, ""}));
 }
 
-std::string fullPath(const std::string& path) {
-  return fs::absolute(path).lexically_normal().string();
-}
-
 std::string outputFolder(const std::string& path) {
   const fs::path folder = fs::absolute(path).lexically_normal();
   std::error_code error;

@@ -6,6 +6,7 @@
 
 #include "fsr_pressure_map/ros/bag_reader.h"
 #include "settings/command_line.h"
+#include "settings/replace_file.h"
 
 namespace fsr_ros {
 
@@ -20,8 +21,7 @@ ToolProgress toolProgress();
 /// The option --threads; 0 = one for each core. Throws fsr::settings::InputError.
 unsigned threadsOf(const fsr::settings::CommandLine& line);
 
-/// The path from the root, as the messages of the tools show it.
-std::string fullPath(const std::string& path);
+using fsr::settings::fullPath;
 
 /// Creates a folder if it does not exist, and returns its absolute path. Throws fsr::InputError if it cannot
 /// be created.

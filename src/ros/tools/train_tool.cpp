@@ -20,17 +20,12 @@
 #include "ros/tools/tool_options.h"
 #include "settings/command_line.h"
 #include "settings/file_kind.h"
+#include "settings/joined.h"
 #include "settings/replace_file.h"
 
 namespace fsr_ros {
 
 namespace {
-
-std::string list(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
 
 fsr::settings::CommandLine trainOptions() {
   fsr::settings::CommandLine line(
@@ -44,7 +39,7 @@ fsr::settings::CommandLine trainOptions() {
       .option("scheme", "NAME",
               fsr::compensation::schemeList() + "; default " +
                   fsr::compensation::schemeName(fsr::calibration::CalibrationOptions{}.scheme))
-      .option("model", "NAME", list(fsr::regression::regressorNames()) + "; default grnn")
+      .option("model", "NAME", fsr::settings::joined(fsr::regression::regressorNames()) + "; default grnn")
       .option("history", "NAME",
               "model of the sheet's memory: auto (chosen on protocols that were left out), none, plays (a "
               "loop), memories (creep), both, or a verdict.yaml whose named effect is tried first; default "

@@ -15,6 +15,7 @@
 #include "ros/bags/bag_writer.h"
 #include "support/mounted_day.h"
 #include "support/synthetic_recording.h"
+#include "support/tool_run.h"
 
 namespace fsr_ros {
 namespace {
@@ -45,19 +46,10 @@ class CheckBagTool : public testing::Test {
   }
 
   // Returns the exit status, or -1 after an InputError; the output or the message is in said_.
-  int run(std::vector<std::string> words) {
-    words.insert(words.begin(), "check_bag");
-    std::vector<const char*> arguments;
-    for (const std::string& word : words) arguments.push_back(word.c_str());
-    std::ostringstream out;
-    try {
-      const int status = checkBagTool(static_cast<int>(arguments.size()), arguments.data(), out);
-      said_ = out.str();
-      return status;
-    } catch (const fsr::settings::InputError& error) {
-      said_ = error.what();
-      return -1;
-    }
+  int run(const std::vector<std::string>& words) {
+    const test_support::ToolRun run = test_support::runTool(checkBagTool, "check_bag", words);
+    said_ = run.said();
+    return run.status;
   }
   bool says(const std::string& words) const { return said_.find(words) != std::string::npos; }
   bool ends(const std::string& words) const {

@@ -18,6 +18,7 @@
 #include "session/session_files.h"
 #include "support/mounted_day.h"
 #include "support/source_dir.h"
+#include "support/tool_run.h"
 
 namespace fsr_ros {
 namespace {
@@ -50,19 +51,10 @@ class DayReportTool : public testing::Test {
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
   // Returns the exit status, or -1 after an InputError; the output or the message is in said_.
-  int run(std::vector<std::string> words) {
-    words.insert(words.begin(), "day_report");
-    std::vector<const char*> arguments;
-    for (const std::string& word : words) arguments.push_back(word.c_str());
-    std::ostringstream out;
-    try {
-      const int status = dayReportTool(static_cast<int>(arguments.size()), arguments.data(), out);
-      said_ = out.str();
-      return status;
-    } catch (const fsr::settings::InputError& error) {
-      said_ = error.what();
-      return -1;
-    }
+  int run(const std::vector<std::string>& words) {
+    const test_support::ToolRun run = test_support::runTool(dayReportTool, "day_report", words);
+    said_ = run.said();
+    return run.status;
   }
   std::string page() const {
     std::ifstream file(path("day_report.html"));

@@ -18,6 +18,7 @@
 #include "simulation/settings_text.h"
 #include "support/source_dir.h"
 #include "support/synthetic_recording.h"
+#include "support/tool_run.h"
 
 namespace fsr_ros {
 namespace {
@@ -62,17 +63,10 @@ class DiscrepancyTool : public testing::Test {
     return path("small.yaml");
   }
   /// The output of the tool, or its error.
-  std::string run(std::vector<std::string> words) {
-    words.insert(words.begin(), "discrepancy");
-    std::vector<const char*> arguments;
-    for (const std::string& word : words) arguments.push_back(word.c_str());
-    std::ostringstream out;
-    try {
-      EXPECT_EQ(discrepancyTool(static_cast<int>(arguments.size()), arguments.data(), out), 0);
-      return out.str();
-    } catch (const fsr::settings::InputError& error) {
-      return error.what();
-    }
+  std::string run(const std::vector<std::string>& words) {
+    const test_support::ToolRun run = test_support::runTool(discrepancyTool, "discrepancy", words);
+    EXPECT_EQ(run.status, run.error.empty() ? 0 : -1);
+    return run.said();
   }
   void expectSaid(const std::string& said, const std::vector<std::string>& parts) const {
     for (const std::string& part : parts)

@@ -11,6 +11,7 @@
 #include "session/plan_steps.h"
 #include "support/pty.h"
 #include "support/source_dir.h"
+#include "support/tool_run.h"
 
 namespace {
 
@@ -18,17 +19,10 @@ namespace fs = std::filesystem;
 
 class PlanSessionTool : public testing::Test {
  protected:
-  std::string run(std::vector<std::string> words) {
-    words.insert(words.begin(), "plan_session");
-    std::vector<const char*> arguments;
-    for (const std::string& word : words) arguments.push_back(word.c_str());
-    std::ostringstream out;
-    try {
-      EXPECT_EQ(fsr_ros::planSessionTool(static_cast<int>(arguments.size()), arguments.data(), out), 0);
-    } catch (const fsr::settings::InputError& error) {
-      return error.what();
-    }
-    return out.str();
+  std::string run(const std::vector<std::string>& words) {
+    const test_support::ToolRun run = test_support::runTool(fsr_ros::planSessionTool, "plan_session", words);
+    EXPECT_EQ(run.status, run.error.empty() ? 0 : -1);
+    return run.said();
   }
   std::string output() const { return folder_.path("day.yaml"); }
   static bool contains(const std::string& text, const std::string& part) {

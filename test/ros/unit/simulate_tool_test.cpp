@@ -26,6 +26,7 @@
 #include "simulation/session.h"
 #include "simulation/settings_text.h"
 #include "support/source_dir.h"
+#include "support/tool_run.h"
 
 namespace fsr_ros {
 namespace {
@@ -45,24 +46,14 @@ class SimulateTool : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  std::string run(std::vector<std::string> words) {
-    words.insert(words.begin(), "simulate");
-    std::vector<const char*> arguments;
-    for (const std::string& word : words) arguments.push_back(word.c_str());
-    std::ostringstream out;
-    try {
-      status_ = simulateTool(static_cast<int>(arguments.size()), arguments.data(), out);
-      return out.str();
-    } catch (const fsr::settings::InputError& error) {
-      printed_ = out.str();
-      return error.what();
-    }
+  std::string run(const std::vector<std::string>& words) {
+    run_ = test_support::runTool(simulateTool, "simulate", words);
+    return run_.said();
   }
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
   fs::path folder_;
-  int status_ = -1;
-  std::string printed_;  // output before the error
+  test_support::ToolRun run_;
 };
 
 std::set<std::string> topicsOf(const std::string& bag_path) {
@@ -81,7 +72,7 @@ std::set<std::string> filesIn(const fs::path& folder) {
 
 TEST_F(SimulateTool, WritesABagForEachStationAndTheTruthBeside) {
   const std::string printed = run({"--simulation", kBench, "--output", path("out")});
-  EXPECT_EQ(status_, 0);
+  EXPECT_EQ(run_.status, 0);
   EXPECT_EQ(filesIn(path("out")), (std::set<std::string>{"1_flat.bag", "2_cylinder_5cm.bag", "truth.yaml"}));
   EXPECT_NE(printed.find(path("out/1_flat.bag")), std::string::npos);
   const auto truth = fsr::simulation::readSimulationFile(path("out/truth.yaml"));
@@ -157,7 +148,7 @@ TEST_F(SimulateTool, ReplaysLatchWhatTheNodesLatch) {
 
 TEST_F(SimulateTool, GoesOnFromASavedState) {
   run({"--simulation", kBench, "--output", path("one"), "--save-state", path("state.yaml")});
-  ASSERT_EQ(status_, 0);
+  ASSERT_EQ(run_.status, 0);
   run({"--simulation", kBench, "--output", path("two"), "--state", path("state.yaml")});
   EXPECT_EQ(filesIn(path("two")), (std::set<std::string>{"3_flat.bag", "4_cylinder_5cm.bag", "truth.yaml"}));
   const fsr::dataset::Recording before = readBag(path("one/2_cylinder_5cm.bag")),
@@ -166,14 +157,14 @@ TEST_F(SimulateTool, GoesOnFromASavedState) {
   EXPECT_NE(after.counts, readBag(path("one/1_flat.bag")).counts);
   run({"--simulation", kBench, "--output", path("model"), "--drive", path("two/3_flat.bag"), "--state",
        path("state.yaml")});
-  EXPECT_EQ(status_, 0);
+  EXPECT_EQ(run_.status, 0);
 }
 
 TEST_F(SimulateTool, DrivesTheModelWithRecordedBags) {
   run({"--simulation", kBench, "--output", path("real")});
   run({"--simulation", kBench, "--output", path("model"), "--drive", path("real/1_flat.bag"),
        path("real/2_cylinder_5cm.bag"), "--seed", "7"});
-  EXPECT_EQ(status_, 0);
+  EXPECT_EQ(run_.status, 0);
   for (const std::string name : {"1_flat.bag", "2_cylinder_5cm.bag"}) {
     const fsr::dataset::Recording real = readBag(path("real/" + name)),
                                   model = readBag(path("model/" + name));
@@ -214,7 +205,7 @@ TEST_F(SimulateTool, TakesTheOneSensorThatItIsTold) {
     }
   }
   run({"--simulation", kBench, "--output", path("model"), "--drive", path("two.bag"), "--namespace", "left"});
-  ASSERT_EQ(status_, 0);
+  ASSERT_EQ(run_.status, 0);
   for (const std::string& topic : topicsOf(path("model/two.bag"))) EXPECT_EQ(topic.find("/left/"), 0u);
   EXPECT_EQ(topicsOf(path("model/two.bag")).size(), 6u);
 }
@@ -224,7 +215,7 @@ TEST_F(SimulateTool, LeavesNothingBehindWhereABagCannotDriveIt) {
   const std::string said =
       run({"--simulation", kBench, "--output", path("new"), "--drive", path("text.bag")});
   EXPECT_NE(said.find("text.bag"), std::string::npos) << said;
-  EXPECT_EQ(printed_, "");
+  EXPECT_EQ(run_.printed, "");
   EXPECT_FALSE(fs::exists(folder_ / "new"));
   fs::create_directories(folder_ / "old");
   run({"--simulation", kBench, "--output", path("old"), "--drive", path("text.bag")});
@@ -247,7 +238,7 @@ TEST_F(SimulateTool, SaysWhatADrivenModelIsLikeAndWhatItMissed) {
   writeBag(path("bare.bag"), recording);
   const std::string printed =
       run({"--simulation", kBench, "--output", path("model"), "--drive", path("bare.bag")});
-  EXPECT_EQ(status_, 0) << printed;
+  EXPECT_EQ(run_.status, 0) << printed;
   EXPECT_NE(printed.find("the matrix has 2 x 5 taxels"), std::string::npos) << printed;
   EXPECT_NE(printed.find("holds no temperature"), std::string::npos) << printed;
   EXPECT_NE(printed.find("the simulated matrix lies flat there"), std::string::npos) << printed;
@@ -271,7 +262,7 @@ TEST_F(SimulateTool, OverwritesItsOwnBagsButNobodyElses) {
   EXPECT_EQ(filesIn(folder_), (std::set<std::string>{"recorded.bag"}));
   run({"--simulation", kBench, "--output", path("out")});
   run({"--simulation", kBench, "--output", path("out")});
-  EXPECT_EQ(status_, 0);
+  EXPECT_EQ(run_.status, 0);
 }
 
 // What a run tells: its steps in their order, with the shares of each.
@@ -347,7 +338,7 @@ TEST_F(SimulateTool, ListsEveryEffect) {
 TEST_F(SimulateTool, DrawsWhatAnEffectDoes) {
   const std::string printed =
       run({"--simulation", kBench, "--output", path("out"), "--plot", "--effect", "creep"});
-  ASSERT_EQ(status_, 0) << printed;
+  ASSERT_EQ(run_.status, 0) << printed;
   std::ifstream picture(path("out/creep.png"), std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(picture), {}};
   EXPECT_EQ(bytes.substr(1, 3), "PNG");
@@ -397,9 +388,9 @@ class SimulateShards : public SimulateTool {
     std::ofstream(folder_ / "out" / file, std::ios::binary) << text;
   }
   void expectRefused(const std::vector<std::string>& parts) {
-    status_ = -1;
+    run_.status = -1;
     const std::string said = merge();
-    EXPECT_EQ(status_, -1) << said;
+    EXPECT_EQ(run_.status, -1) << said;
     for (const std::string& part : parts) EXPECT_NE(said.find(part), std::string::npos) << said;
   }
 };
@@ -414,7 +405,7 @@ TEST_F(SimulateShards, WriteTheBytesOfARunWithoutShards) {
   EXPECT_EQ(bagsBelow(path("out")).size(), 2u);
   EXPECT_EQ(contentOf(path("out/truth.yaml")), contentOf(path("whole/truth.yaml")));
   EXPECT_EQ(merge(), "2 bags in " + path("out") + " are complete, and each is as its shard wrote it\n");
-  EXPECT_EQ(status_, 0);
+  EXPECT_EQ(run_.status, 0);
 }
 
 TEST_F(SimulateShards, OfSeveralSheetsHaveWholeSheets) {
@@ -422,7 +413,7 @@ TEST_F(SimulateShards, OfSeveralSheetsHaveWholeSheets) {
   EXPECT_EQ(filesIn(path("out")), (std::set<std::string>{"sheet_1", "sheet_3", "shard_1_of_2.json"}));
   shard("2/2", {"--sheets", "3"});
   merge();
-  EXPECT_EQ(status_, 0);
+  EXPECT_EQ(run_.status, 0);
   run({"--simulation", kBench, "--output", path("whole"), "--sheets", "3"});
   EXPECT_EQ(bagsBelow(path("out")), bagsBelow(path("whole")));
   run({"--simulation", kBench, "--output", path("alone"), "--seed", "3"});

@@ -12,6 +12,7 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "ros/bags/bag_writer.h"
 #include "support/synthetic_recording.h"
+#include "support/tool_run.h"
 
 namespace fsr_ros {
 namespace {
@@ -48,17 +49,10 @@ class StudyTool : public testing::Test {
     return path;
   }
 
-  std::string run(std::vector<std::string> words) {
-    words.insert(words.begin(), "study");
-    std::vector<const char*> arguments;
-    for (const std::string& word : words) arguments.push_back(word.c_str());
-    std::ostringstream out;
-    try {
-      EXPECT_EQ(studyTool(static_cast<int>(arguments.size()), arguments.data(), out), 0);
-      return out.str();
-    } catch (const fsr::settings::InputError& error) {
-      return error.what();
-    }
+  std::string run(const std::vector<std::string>& words) {
+    const test_support::ToolRun run = test_support::runTool(studyTool, "study", words);
+    EXPECT_EQ(run.status, run.error.empty() ? 0 : -1);
+    return run.said();
   }
 
   fs::path folder_;

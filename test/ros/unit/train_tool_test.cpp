@@ -20,6 +20,7 @@
 #include "support/mounted_day.h"
 #include "support/squeezed.h"
 #include "support/synthetic_recording.h"
+#include "support/tool_run.h"
 
 namespace fsr_ros {
 namespace {
@@ -48,17 +49,10 @@ class TrainTool : public testing::Test {
     return path;
   }
 
-  std::string run(std::vector<std::string> words) {
-    words.insert(words.begin(), "train");
-    std::vector<const char*> arguments;
-    for (const std::string& word : words) arguments.push_back(word.c_str());
-    std::ostringstream out;
-    try {
-      EXPECT_EQ(trainTool(static_cast<int>(arguments.size()), arguments.data(), out), 0);
-      return out.str();
-    } catch (const fsr::settings::InputError& error) {
-      return error.what();
-    }
+  std::string run(const std::vector<std::string>& words) {
+    const test_support::ToolRun run = test_support::runTool(trainTool, "train", words);
+    EXPECT_EQ(run.status, run.error.empty() ? 0 : -1);
+    return run.said();
   }
 
   fs::path folder_;
