@@ -9,8 +9,8 @@
 #include <tuple>
 
 #include "calibration/packed_tables.h"
-#include "compensation/history_state.h"
-#include "compensation/temperature_state.h"
+#include "calibration/stages/memory/history_state.h"
+#include "calibration/stages/temperature/temperature_state.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "map/fill.h"
 
@@ -64,9 +64,8 @@ void requireEach(const char* what, std::size_t values, matrix::MatrixSize size) 
 
 class Calibrator::Impl {
  public:
-  Impl(const compensation::CurvatureTables& tables, const matrix::Layout& layout,
-       const compensation::HistoryModel& history, const compensation::TemperatureModel& temperature,
-       const DeviationScale& scale, const CalibratorOptions& options);
+  Impl(const compensation::CurvatureTables& tables, const matrix::Layout& layout, const HistoryModel& history,
+       const TemperatureModel& temperature, const DeviationScale& scale, const CalibratorOptions& options);
   Impl(const Impl&) = delete;  // table_ points into the object's own tables
   Impl& operator=(const Impl&) = delete;
 
@@ -149,14 +148,13 @@ class Calibrator::Impl {
   std::vector<std::size_t> failed_;            // dead or stuck taxels that are not masked
   std::vector<std::size_t> undetermined_;      // taxels whose deviation is unknown
 
-  std::unique_ptr<compensation::HistoryState> history_;        // null = the tables alone answer
-  std::optional<compensation::TemperatureState> temperature_;  // none = the pressure does not depend on it
+  std::unique_ptr<HistoryState> history_;        // null = the tables alone answer
+  std::optional<TemperatureState> temperature_;  // none = the pressure does not depend on it
 };
 
 Calibrator::Impl::Impl(const compensation::CurvatureTables& tables, const matrix::Layout& layout,
-                       const compensation::HistoryModel& history,
-                       const compensation::TemperatureModel& temperature, const DeviationScale& scale,
-                       const CalibratorOptions& options)
+                       const HistoryModel& history, const TemperatureModel& temperature,
+                       const DeviationScale& scale, const CalibratorOptions& options)
     : tables_(tables, scale),
       layout_(layout),
       options_(options),
@@ -178,7 +176,7 @@ Calibrator::Impl::Impl(const compensation::CurvatureTables& tables, const matrix
   failed_.reserve(tables.size.taxels());
   undetermined_.reserve(tables.size.taxels());
   if (history.present()) {
-    history_ = std::make_unique<compensation::HistoryState>(history, tables.size.taxels());
+    history_ = std::make_unique<HistoryState>(history, tables.size.taxels());
   }
   if (temperature.present()) temperature_.emplace(temperature);
   selectTables({});
@@ -427,8 +425,8 @@ map::MapState Calibrator::Impl::state(double time) const noexcept {
 
 Calibrator::Calibrator(const compensation::CurvatureTables& tables, const matrix::Layout& layout,
                        const CalibratorOptions& options)
-    : impl_(std::make_unique<Impl>(tables, layout, compensation::HistoryModel{},
-                                   compensation::TemperatureModel{}, DeviationScale{}, options)) {}
+    : impl_(std::make_unique<Impl>(tables, layout, HistoryModel{}, TemperatureModel{}, DeviationScale{},
+                                   options)) {}
 
 Calibrator::Calibrator(const Calibration& calibration, const CalibratorOptions& options)
     : impl_(std::make_unique<Impl>(calibration.tables, calibration.layout, calibration.history,

@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "calibration/sources.h"
-#include "calibration/taxel_training.h"
+#include "calibration/stages/tables/taxel_training.h"
 #include "compensation/training_statistics.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "matrix/for_each_taxel.h"

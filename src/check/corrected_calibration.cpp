@@ -37,7 +37,7 @@ void move(const ReadingChange& change, std::uint16_t full_scale, double larger,
 }
 
 // The readings at rest on each surface move with the tables.
-void moveShape(const std::vector<ReadingChange>& changes, compensation::ShapeModel& shape) {
+void moveShape(const std::vector<ReadingChange>& changes, calibration::ShapeModel& shape) {
   if (!shape.present()) return;
   const std::size_t taxels = changes.size();
   for (std::size_t taxel = 0; taxel < taxels; ++taxel) {

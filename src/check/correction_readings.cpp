@@ -2,12 +2,12 @@
 #include <cmath>
 #include <map>
 
-#include "calibration/session/session_rests.h"
 #include "calibration/sources.h"
-#include "calibration/temperature/temperature_course.h"
+#include "calibration/stages/session/session_rests.h"
+#include "calibration/stages/temperature/temperature_course.h"
+#include "calibration/stages/temperature/temperature_state.h"
 #include "check/check.h"
 #include "check/correction.h"
-#include "compensation/temperature_state.h"
 #include "dataset/count_readers.h"
 #include "dataset/sections.h"
 #include "fsr_pressure_map/calibration/calibrator.h"
@@ -101,7 +101,7 @@ std::vector<double> targetsOf(const Calibration& parent, const dataset::Recordin
   if (!parent.temperature.present() || !known) return targets;
   const std::vector<double> sheet = calibration::sheetTemperature(recording, parent.temperature.lag);
   for (std::size_t i = 0; i < targets.size(); ++i)
-    targets[i] /= compensation::temperatureFactor(parent.temperature, sheet[i]);
+    targets[i] /= calibration::temperatureFactor(parent.temperature, sheet[i]);
   return targets;
 }
 

@@ -6,10 +6,10 @@
 #include <map>
 #include <set>
 
-#include "calibration/history_parts.h"
-#include "calibration/session/session_check.h"
 #include "calibration/sources.h"
-#include "calibration/temperature/temperature_course.h"
+#include "calibration/stages/memory/history_parts.h"
+#include "calibration/stages/session/session_check.h"
+#include "calibration/stages/temperature/temperature_course.h"
 #include "dataset/count_readers.h"
 #include "dataset/protocols.h"
 #include "fsr_pressure_map/calibration/calibrator.h"

@@ -5,7 +5,7 @@
 #include <optional>
 #include <sstream>
 
-#include "calibration/session/session_rests.h"
+#include "calibration/stages/session/session_rests.h"
 #include "check/sheet_life.h"
 #include "dataset/count_readers.h"
 #include "fsr_pressure_map/settings/input_error.h"

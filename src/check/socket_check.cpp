@@ -5,7 +5,7 @@
 #include <deque>
 
 #include "calibration/sources.h"
-#include "calibration/temperature/temperature_course.h"
+#include "calibration/stages/temperature/temperature_course.h"
 #include "dataset/count_readers.h"
 #include "fsr_pressure_map/calibration/calibrator.h"
 #include "fsr_pressure_map/settings/input_error.h"

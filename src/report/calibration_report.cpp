@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calibration/budget/new_mount_line.h"
+#include "calibration/stages/deviation/new_mount_line.h"
 #include "report/budget_report.h"
 #include "report/history_report.h"
 #include "report/text_table.h"

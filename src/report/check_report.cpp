@@ -4,7 +4,7 @@
 #include <iomanip>
 #include <sstream>
 
-#include "calibration/budget/new_mount_line.h"
+#include "calibration/stages/deviation/new_mount_line.h"
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "report/history_report.h"
 #include "report/result_json.h"
@@ -67,12 +67,12 @@ std::string declaredCurvature(const matrix::Surface& surface) {
 }
 
 // "8.0 +- 0.8", or "-" if the readings do not bound it.
-std::string changeText(const compensation::ShapeModel& model, const compensation::BendChange& change) {
+std::string changeText(const calibration::ShapeModel& model, const calibration::BendChange& change) {
   if (!calibration::isKnown(model, change)) return "-";
   return fixedText(change.change, 2) + " +- " + fixedText(change.deviation, 2);
 }
 
-std::string changeTable(const compensation::ShapeModel& model,
+std::string changeTable(const calibration::ShapeModel& model,
                         const std::vector<calibration::CheckedMount>& mounts) {
   TextTable table({"mount", "along a row", "along a column", "changes"}, {1, 2, 3});
   for (const auto& [mount, check] : mounts) {
@@ -85,7 +85,7 @@ std::string changeTable(const compensation::ShapeModel& model,
          table.text() + calibration::fixedText(model) + "\n\n";
 }
 
-std::string shapeText(const compensation::ShapeModel& model,
+std::string shapeText(const calibration::ShapeModel& model,
                       const std::vector<calibration::CheckedMount>& mounts) {
   if (mounts.empty())
     return "How the sheet lies cannot be told: no bag starts with a rest before the first load\n";

@@ -97,7 +97,7 @@ Json temperatureJson(const calibration::Calibration& calibration) {
   Json groups = Json::array();
   for (const auto& group : score.groups)
     groups.push_back({{"left_out", group.name}, {"rmse_without", group.without}, {"rmse_with", group.with}});
-  const compensation::TemperatureModel& model = calibration.temperature;
+  const calibration::TemperatureModel& model = calibration.temperature;
   return {{"choice", score.choice},
           {"sensitivity", model.sensitivity},
           {"reference", model.reference},
@@ -130,9 +130,9 @@ Json historyJson(const calibration::Calibration& calibration) {
                      {"rmse", part.rmse},
                      {"within_one_deviation", part.within_one_deviation}});
   }
-  const compensation::HistoryModel& model = calibration.history;
+  const calibration::HistoryModel& model = calibration.history;
   return {{"choice", score.choice},
-          {"family", compensation::historyName(model.family)},
+          {"family", calibration::historyName(model.family)},
           {"radius", model.radius},
           {"play_weight", model.play_weight},
           {"time_constant", model.time_constant},

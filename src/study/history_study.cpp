@@ -12,9 +12,9 @@ namespace fsr::study {
 namespace {
 
 using calibration::HistoryStream;
+using calibration::HistorySums;
 using calibration::LeftOutSums;
 using calibration::StaticAnswer;
-using compensation::HistorySums;
 
 // Sets the codes of training; returns whether there are any.
 bool setTrainedCodes(const regression::CodeHistogram& readings, StaticAnswer& answer) {
@@ -61,7 +61,7 @@ HistoryStudy::HistoryStudy(const StudyData& data, const Split& split, const std:
       split_(split),
       models_(models),
       plan_(plan),
-      grid_(compensation::historyGrid(data.protocols.highest, data.protocols.longest_hold)) {
+      grid_(calibration::historyGrid(data.protocols.highest, data.protocols.longest_hold)) {
   for (std::size_t r = 0; r < data.recordings->size(); ++r) {
     streams_.emplace_back((*data.recordings)[r], data.class_of[r], data.divided[r], data.protocols.of_scan[r],
                           grid_);
@@ -118,7 +118,7 @@ HeldOutAnswer HistoryStudy::answer(std::size_t taxel, std::size_t fold, const Ta
     CorrectedPressures& own = (*corrected)[r];
     streams_[r].run(taxel, tables, [&](const HistoryStream::Scan& scan, double x, const double* state) {
       if (scan.protocol != protocolOf(split_.folds[fold])) return;
-      compensation::historyFeatures(grid_, x, state, features.data());
+      calibration::historyFeatures(grid_, x, state, features.data());
       own.add(scan.number, x + coefficients.dot(features));
     });
     own.addUntil(streams_[r].recording().scans());

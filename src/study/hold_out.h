@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "calibration/history_training.h"
+#include "calibration/stages/memory/history_training.h"
 #include "compensation/blend_table.h"
 #include "study/evaluation.h"
 #include "study/fold.h"
@@ -70,7 +70,7 @@ class HistoryStudy {
   const Split& split_;
   const std::vector<FoldModel>& models_;
   const StudyPlan& plan_;
-  compensation::HistoryGrid grid_;
+  calibration::HistoryGrid grid_;
   std::vector<calibration::HistoryStream> streams_;  // [recordings]
   calibration::HistoryVerdict verdict_;
 };

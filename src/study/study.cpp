@@ -4,8 +4,8 @@
 #include <memory>
 #include <mutex>
 
-#include "calibration/history_training.h"
 #include "calibration/sources.h"
+#include "calibration/stages/memory/history_training.h"
 #include "study/study_pieces.h"
 
 namespace fsr::study {

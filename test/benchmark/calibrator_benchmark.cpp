@@ -96,8 +96,8 @@ void CalibrateWithHistory(benchmark::State& state) {
   fsr::calibration::Calibration calibration;
   calibration.tables = test_support::smallTables(matrix, kCurvatures, kFullScale);
   calibration.layout = {matrix};
-  fsr::compensation::HistoryModel& model = calibration.history;
-  model.family = fsr::compensation::HistoryFamily::kBoth;
+  fsr::calibration::HistoryModel& model = calibration.history;
+  model.family = fsr::calibration::HistoryFamily::kBoth;
   for (int k = 0; k <= 16; ++k) model.knot.push_back(40e3 * k);
   model.correction.assign(model.knot.size(), 100);
   model.radius = {12e3, 30e3, 60e3, 120e3, 210e3};

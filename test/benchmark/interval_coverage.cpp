@@ -102,7 +102,7 @@ void measure(const Row& row, unsigned sheets) {
     calibration::CalibrationProblem problem{{all.begin(), all.begin() + half}, {}};
     problem.options.folds = row.folds;
     problem.options.zero = calibration::ZeroChoice::kNone;
-    problem.options.history = {false, compensation::HistoryFamily::kNone};
+    problem.options.history = {false, calibration::HistoryFamily::kNone};
     problem.options.date = "2026-11-23T00:00:00Z";
     const auto share = coverage(calibration::calibrate(problem), all, all.size() / 2);
     for (std::size_t column = 0; column < kColumns; ++column) covered[column].add(100 * share[column]);

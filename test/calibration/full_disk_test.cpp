@@ -9,7 +9,7 @@
 #include <fstream>
 #include <thread>
 
-#include "calibration/tare.h"
+#include "calibration/stages/session/tare.h"
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "support/leaks_of_others.h"

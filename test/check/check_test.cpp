@@ -52,7 +52,7 @@ Calibration trainedOn(const Recording& recording) {
   fsr::calibration::CalibrationProblem problem;
   problem.recordings = {recording};
   problem.options.scores = false;
-  problem.options.history = {false, fsr::compensation::HistoryFamily::kNone};
+  problem.options.history = {false, fsr::calibration::HistoryFamily::kNone};
   problem.options.choose_bandwidth = false;
   Calibration calibration = fsr::calibration::calibrate(problem);
   calibration.id = "0123456789ab";

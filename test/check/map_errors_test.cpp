@@ -101,7 +101,7 @@ TEST(MapErrors, NameAnotherSensor) {
 // The sheet has an offset in each session, or a loop.
 fsr::calibration::Calibration trained(const std::vector<Recording>& recordings, bool history = true) {
   fsr::calibration::CalibrationProblem problem{recordings, {}};
-  problem.options.history = {history, fsr::compensation::HistoryFamily::kNone};
+  problem.options.history = {history, fsr::calibration::HistoryFamily::kNone};
   return fsr::calibration::calibrate(problem);
 }
 

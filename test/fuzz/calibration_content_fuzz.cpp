@@ -20,9 +20,9 @@ namespace {
 constexpr std::uint16_t kFullScale = 31;
 
 // A model of the sheet's memory with every operator.
-fsr::compensation::HistoryModel someHistory() {
-  fsr::compensation::HistoryModel model;
-  model.family = fsr::compensation::HistoryFamily::kBoth;
+fsr::calibration::HistoryModel someHistory() {
+  fsr::calibration::HistoryModel model;
+  model.family = fsr::calibration::HistoryFamily::kBoth;
   model.knot = model.deviation_knot = {0, 300e3, 600e3};
   model.correction = {1e3, 0, -1e3};
   model.radius = {10e3, 60e3};
@@ -34,7 +34,7 @@ fsr::compensation::HistoryModel someHistory() {
 }
 
 // The bytes of a valid file with all that training writes, one for each rule of handling curvature.
-std::string soundFile(fsr::compensation::Scheme scheme, const fsr::compensation::HistoryModel& history = {}) {
+std::string soundFile(fsr::compensation::Scheme scheme, const fsr::calibration::HistoryModel& history = {}) {
   test_support::SyntheticRig rig;
   rig.size = {1, 2};
   rig.full_scale = kFullScale;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "compensation/history_state.h"
+#include "calibration/stages/memory/history_state.h"
 #include "fuzz/fuzz_file.h"
 #include "fuzz/hdf5_damage.h"
 
@@ -12,9 +12,9 @@ namespace {
 
 constexpr double kPressures = 700e3;  // static answers lie within -kPressures and kPressures [Pa]
 
-fsr::compensation::HistoryModel someModel() {
-  fsr::compensation::HistoryModel model;
-  model.family = fsr::compensation::HistoryFamily::kBoth;
+fsr::calibration::HistoryModel someModel() {
+  fsr::calibration::HistoryModel model;
+  model.family = fsr::calibration::HistoryFamily::kBoth;
   model.knot = model.deviation_knot = {0, 300e3, 600e3};
   model.correction = {2e3, 0, -4e3};
   model.radius = {10e3, 60e3, 200e3};
@@ -32,7 +32,7 @@ constexpr double kBound = 4e3 + (3e3 + 6e3 + 4e3) + 0.07 * 2 * kPressures + 1;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   fuzz::Numbers numbers(bytes, size);
-  fsr::compensation::HistoryState state(someModel(), 2);
+  fsr::calibration::HistoryState state(someModel(), 2);
   double time = 0;
   for (std::size_t i = 0; i < size / 4; ++i) {
     const auto what = numbers.next<std::uint8_t>();

@@ -1,7 +1,7 @@
 // A tare file gives a finite offset for every taxel, or is refused with one sentence.
 #include <cmath>
 
-#include "calibration/tare.h"
+#include "calibration/stages/session/tare.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "fuzz/fuzz_file.h"
 

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <vector>
 
-#include "calibration/session/session_check.h"
-#include "calibration/temperature/temperature_course.h"
+#include "calibration/stages/session/session_check.h"
+#include "calibration/stages/temperature/temperature_course.h"
 #include "fsr_pressure_map/calibration/calibrator.h"
 #include "fsr_pressure_map/dataset/recording.h"
 

@@ -3,15 +3,15 @@
 #include <limits>
 #include <string>
 
-#include "compensation/shape/rest_law.h"
+#include "calibration/stages/shape/rest_law.h"
 
 namespace test_support {
 
-using fsr::compensation::ShapeModel;
+using fsr::calibration::ShapeModel;
 
-fsr::compensation::MountScatter scatterOf(fsr::compensation::FieldFamily family, double deviation,
-                                          double length, double common, double white) {
-  fsr::compensation::MountScatter scatter;
+fsr::calibration::MountScatter scatterOf(fsr::calibration::FieldFamily family, double deviation,
+                                         double length, double common, double white) {
+  fsr::calibration::MountScatter scatter;
   scatter.family = family;
   scatter.deviation = deviation;
   scatter.length = length;
@@ -31,7 +31,7 @@ std::vector<fsr::matrix::Position> plantedPlaces(const PlantedShape& sheet) {
 }
 
 Eigen::MatrixXd drawMounts(const PlantedShape& sheet, std::size_t number, std::mt19937& random) {
-  Eigen::MatrixXd covariance = fsr::compensation::fieldCovariance(sheet.scatter, plantedPlaces(sheet));
+  Eigen::MatrixXd covariance = fsr::calibration::fieldCovariance(sheet.scatter, plantedPlaces(sheet));
   covariance.diagonal().array() += sheet.scatter.white * sheet.scatter.white;
   const Eigen::MatrixXd root = covariance.llt().matrixL();
   std::normal_distribution<double> normal;
@@ -55,8 +55,8 @@ Eigen::VectorXd plantedRest(const PlantedShape& sheet, double curvature) {
   return rest;
 }
 
-fsr::compensation::RestReading readingOf(const Eigen::VectorXd& pressure) {
-  fsr::compensation::RestReading rest;
+fsr::calibration::RestReading readingOf(const Eigen::VectorXd& pressure) {
+  fsr::calibration::RestReading rest;
   for (const double own : pressure) rest.reading.push_back(own / kPlantedScale * kPlantedFullScale);
   rest.zero.assign(rest.reading.size(), 0);
   return rest;
@@ -76,19 +76,19 @@ ShapeModel learnPlanted(const PlantedShape& sheet) {
   model.gain.assign(surfaces, 1.0);
   model.zero_share.assign(surfaces, 0.0);
   model.error_between.assign(surfaces - 1, std::numeric_limits<double>::quiet_NaN());
-  std::vector<fsr::compensation::SurfaceRests> rests;
+  std::vector<fsr::calibration::SurfaceRests> rests;
   std::mt19937 random(sheet.seed);
   for (const double curvature : sheet.curvature) {
     model.surfaces.push_back("surface_" + std::to_string(model.surfaces.size()));
-    fsr::compensation::SurfaceRests surface;
+    fsr::calibration::SurfaceRests surface;
     surface.pressure = drawMounts(sheet, sheet.mounts, random);
     surface.pressure.rowwise() += plantedRest(sheet, curvature).transpose();
     const Eigen::VectorXd mean = surface.pressure.colwise().mean();
     model.rest.insert(model.rest.end(), mean.begin(), mean.end());
     rests.push_back(std::move(surface));
   }
-  model.scatter = fsr::compensation::learnScatter(rests, plantedPlaces(sheet));
-  model.law = fsr::compensation::learnLaw(model);
+  model.scatter = fsr::calibration::learnScatter(rests, plantedPlaces(sheet));
+  model.law = fsr::calibration::learnShapeLaw(model);
   return model;
 }
 

@@ -5,14 +5,14 @@
 #include <random>
 #include <vector>
 
-#include "compensation/shape/learn_shape.h"
-#include "fsr_pressure_map/compensation/shape.h"
+#include "calibration/stages/shape/learn_shape.h"
+#include "fsr_pressure_map/calibration/shape.h"
 
 namespace test_support {
 
 /// `deviation`, `common`, `white` [Pa], `length` [m]
-fsr::compensation::MountScatter scatterOf(fsr::compensation::FieldFamily family, double deviation,
-                                          double length, double common, double white);
+fsr::calibration::MountScatter scatterOf(fsr::calibration::FieldFamily family, double deviation,
+                                         double length, double common, double white);
 
 /// A sheet whose readings at rest are known for every curvature: a preload that grows with the curvature and
 /// saturates, with an amplitude of its own for each taxel. Its formulas are not those of the model.
@@ -20,8 +20,8 @@ struct PlantedShape {
   fsr::matrix::MatrixSize size{4, 5};
   std::vector<double> curvature = {0, 5, 9, 14, 20};  // of the surfaces, principal [1/m]
   std::size_t mounts = 4;                             // of each surface
-  fsr::compensation::MountScatter scatter =
-      scatterOf(fsr::compensation::FieldFamily::kGaussian, 1e3, 0.03, 400, 100);
+  fsr::calibration::MountScatter scatter =
+      scatterOf(fsr::calibration::FieldFamily::kGaussian, 1e3, 0.03, 400, 100);
   unsigned fingerprint = 1;  // seed of the amplitudes of the taxels
   unsigned seed = 1;         // of the mounts
 };
@@ -39,9 +39,9 @@ Eigen::MatrixXd drawMounts(const PlantedShape& sheet, std::size_t number, std::m
 Eigen::VectorXd plantedRest(const PlantedShape& sheet, double curvature);
 
 /// Readings that stand for pressures [Pa].
-fsr::compensation::RestReading readingOf(const Eigen::VectorXd& pressure);
+fsr::calibration::RestReading readingOf(const Eigen::VectorXd& pressure);
 
 /// What training learns from the mounts of the sheet.
-fsr::compensation::ShapeModel learnPlanted(const PlantedShape& sheet);
+fsr::calibration::ShapeModel learnPlanted(const PlantedShape& sheet);
 
 }  // namespace test_support

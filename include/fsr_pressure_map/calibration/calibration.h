@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "fsr_pressure_map/calibration/error_budget.h"
+#include "fsr_pressure_map/calibration/history.h"
+#include "fsr_pressure_map/calibration/shape.h"
+#include "fsr_pressure_map/calibration/temperature.h"
 #include "fsr_pressure_map/compensation/curvature_tables.h"
-#include "fsr_pressure_map/compensation/history.h"
-#include "fsr_pressure_map/compensation/shape.h"
-#include "fsr_pressure_map/compensation/temperature.h"
 #include "fsr_pressure_map/dataset/condition_classes.h"
 #include "fsr_pressure_map/dataset/recording.h"
 #include "fsr_pressure_map/regression/regressor_options.h"
@@ -29,7 +29,7 @@ namespace fsr::calibration {
 struct HistoryChoice {
   bool automatic = true;  ///< by leaving out whole protocols
   /// The family to take where `automatic` is false; otherwise one to try first, kNone = try all.
-  compensation::HistoryFamily family = compensation::HistoryFamily::kNone;
+  HistoryFamily family = HistoryFamily::kNone;
 };
 
 /// Whether the calibration expects a tare at the start of a session.
@@ -126,7 +126,7 @@ struct RemountScore {
 struct HistoryScore {
   struct Protocol {
     std::string name;  ///< e.g. "ramps of 17 kPa/s"
-    /// Of means over half a second, by compensation::HistoryFamily [Pa]; that of kNone is the static answer.
+    /// Of means over half a second, by HistoryFamily [Pa]; that of kNone is the static answer.
     std::array<double, 4> rmse = {};
     double corrected_rmse = 0;  ///< with the correction c alone, without operators [Pa]
   };
@@ -249,10 +249,10 @@ struct Calibration {
   std::vector<std::uint8_t> no_model;
   std::vector<std::uint8_t> masked;  ///< [taxels], 1 = masked in the bags
   compensation::CurvatureTables tables;
-  compensation::HistoryModel history;  ///< of the sheet's memory; family kNone = the tables alone answer
+  HistoryModel history;  ///< of the sheet's memory; family kNone = the tables alone answer
   SessionZero session_zero;
-  compensation::TemperatureModel temperature;  ///< of the sheet; tables and history are those at T_0
-  compensation::ShapeModel shape;              ///< how the unloaded sheet reads on each surface
+  TemperatureModel temperature;  ///< of the sheet; tables and history are those at T_0
+  ShapeModel shape;              ///< how the unloaded sheet reads on each surface
   TrainedRanges trained;
   dataset::Coverage coverage;
   CalibrationScores scores;

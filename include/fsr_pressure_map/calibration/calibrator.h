@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "fsr_pressure_map/calibration/calibration.h"
+#include "fsr_pressure_map/calibration/history.h"
 #include "fsr_pressure_map/compensation/curvature_tables.h"
-#include "fsr_pressure_map/compensation/history.h"
 #include "fsr_pressure_map/health/taxel_watch.h"
 #include "fsr_pressure_map/map/pressure_map.h"
 #include "fsr_pressure_map/matrix/curvature.h"

@@ -62,10 +62,10 @@ Calibration readCalibration(const hdf5::Reader& reader, std::uint64_t schema, Ca
 // The members of each part, written or read by the same list (see hdf5::Members). What is absent stays as it
 // is.
 void ruleMembers(hdf5::Members& file, compensation::CurvatureTables& tables);
-void historyMembers(hdf5::Members& file, compensation::HistoryModel& model);
+void historyMembers(hdf5::Members& file, HistoryModel& model);
 void sessionMembers(hdf5::Members& file, SessionZero& zero);
-void temperatureMembers(hdf5::Members& file, compensation::TemperatureModel& model);
-void shapeMembers(hdf5::Members& file, compensation::ShapeModel& model);
+void temperatureMembers(hdf5::Members& file, TemperatureModel& model);
+void shapeMembers(hdf5::Members& file, ShapeModel& model);
 void coverageMembers(hdf5::Members& file, dataset::Coverage& coverage,
                      const std::vector<dataset::CurvatureClass>& classes);
 void scoresMembers(hdf5::Members& file, CalibrationScores& scores,

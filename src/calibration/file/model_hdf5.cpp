@@ -16,8 +16,8 @@ const hdf5::Names<compensation::BlendRule> kBlends = {{compensation::BlendRule::
                                                       {compensation::BlendRule::kByName, "by_name"}};
 const hdf5::Names<SessionTare> kTares = {{SessionTare::kTablesAlone, "tables_alone"},
                                          {SessionTare::kTrained, "trained"}};
-const hdf5::Names<compensation::FieldFamily> kFamilies = {{compensation::FieldFamily::kGaussian, "gaussian"},
-                                                          {compensation::FieldFamily::kMatern, "matern"}};
+const hdf5::Names<FieldFamily> kFamilies = {{FieldFamily::kGaussian, "gaussian"},
+                                            {FieldFamily::kMatern, "matern"}};
 
 // Values at ascending knots. `name`: of the columns together.
 void requireKnots(const hdf5::Members& file, const std::string& name, const std::vector<double>& knots,
@@ -88,14 +88,14 @@ void ruleMembers(hdf5::Members& file, compensation::CurvatureTables& tables) {
   weightMembers(file, tables);
 }
 
-void historyMembers(hdf5::Members& file, compensation::HistoryModel& model) {
+void historyMembers(hdf5::Members& file, HistoryModel& model) {
   constexpr double kShortest = 1e-6, kLongest = 1e12;  // of a time constant [s]
   constexpr double kLargestWeight = 100;
   constexpr std::size_t kMost = 64;  // knots or operators
   if (!file.group("/history", model.present())) return;
-  std::string family = compensation::historyName(model.family);
+  std::string family = historyName(model.family);
   file.attribute("family", family);
-  model.family = compensation::historyFromName(family);
+  model.family = historyFromName(family);
   file.require(model.present(), "family", "is none");
   file.note("meaning",
             "p = x + c(x) + sum_j w_j (play_j(x) - x) + sum_k v_k (ema_k(x) - x), x = answer of the table");
@@ -139,7 +139,7 @@ void sessionMembers(hdf5::Members& file, SessionZero& zero) {
   file.within("rmse", {zero.rmse}, 0, kLargestPressure);
 }
 
-void temperatureMembers(hdf5::Members& file, compensation::TemperatureModel& model) {
+void temperatureMembers(hdf5::Members& file, TemperatureModel& model) {
   constexpr double kColdest = -273.15, kHottest = 1000;  // [degree Celsius]
   if (!file.group("/temperature", model.present())) return;
   file.note("meaning",
@@ -165,9 +165,9 @@ namespace {
 constexpr double kLeastOfShape = 1e-9;
 constexpr double kMostOfShape = 1e12;
 
-void shapeLawMembers(hdf5::Members& file, compensation::ShapeModel& model) {
-  compensation::MountScatter& s = model.scatter;
-  compensation::ShapeLaw& l = model.law;
+void shapeLawMembers(hdf5::Members& file, ShapeModel& model) {
+  MountScatter& s = model.scatter;
+  ShapeLaw& l = model.law;
   matrix::Curvature& d = model.direction;
   file.attribute("family", s.family, kFamilies);
   file.attribute("contrasts", s.contrasts);
@@ -189,7 +189,7 @@ void shapeLawMembers(hdf5::Members& file, compensation::ShapeModel& model) {
   file.within("direction", {d.x, d.y, d.xy}, -kMostOfShape, kMostOfShape);
 }
 
-void requireShape(const hdf5::Members& file, const compensation::ShapeModel& model) {
+void requireShape(const hdf5::Members& file, const ShapeModel& model) {
   std::vector<double> scales;
   for (std::size_t t = 0; t < model.used.size(); ++t) {
     if (model.used[t] != 0) scales.push_back(model.scale[t]);
@@ -209,7 +209,7 @@ void requireShape(const hdf5::Members& file, const compensation::ShapeModel& mod
 
 }  // namespace
 
-void shapeMembers(hdf5::Members& file, compensation::ShapeModel& model) {
+void shapeMembers(hdf5::Members& file, ShapeModel& model) {
   if (!file.group("/shape")) return;
   file.attribute("missing", model.missing);
   file.note("meaning", "how the unloaded sheet reads on each surface of training");

@@ -3,7 +3,7 @@
 #include <numeric>
 #include <sstream>
 
-#include "calibration/budget/deviation_text.h"
+#include "calibration/stages/deviation/deviation_text.h"
 #include "check/check.h"
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "fsr_pressure_map/settings/input_error.h"
@@ -28,7 +28,7 @@ std::unique_ptr<LoadedCalibration> loadForUse(const std::string& path,
     return std::make_unique<LoadedCalibration>(LoadedCalibration{
         toMessage(calibration, path), fsr::calibration::deviationText(calibration.budget.intervals.scale),
         std::move(calibrator), calibration.session_zero, calibration.temperature.present(),
-        std::make_shared<const fsr::compensation::ShapeModel>(calibration.shape)});
+        std::make_shared<const fsr::calibration::ShapeModel>(calibration.shape)});
   } catch (const fsr::settings::InputError& error) {
     throw fsr::settings::InputError(path + ": " + error.what());
   }

@@ -19,7 +19,7 @@ struct LoadedCalibration {
   fsr::calibration::SessionZero session_zero;  ///< whether a tare is expected, and what it is worth
   bool corrects_temperature;                   ///< it has a model of the temperature
   /// How the unloaded sheet reads on each surface.
-  std::shared_ptr<const fsr::compensation::ShapeModel> shape;
+  std::shared_ptr<const fsr::calibration::ShapeModel> shape;
 
   /// The temperature of the sheet [degree Celsius]; NaN = not known.
   void setTemperature(double temperature) {

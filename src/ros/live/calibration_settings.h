@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "calibration/tare.h"
+#include "calibration/stages/session/tare.h"
 #include "fsr_pressure_map/calibration/calibrator.h"
 #include "ros/live/parameters.h"
 

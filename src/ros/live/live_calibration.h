@@ -15,8 +15,8 @@
 #include <string>
 #include <vector>
 
-#include "calibration/shape/rest_window.h"
-#include "calibration/shape/shape_check.h"
+#include "calibration/stages/shape/rest_window.h"
+#include "calibration/stages/shape/shape_check.h"
 #include "fsr_pressure_map/map/pressure_map.h"
 #include "fsr_pressure_map/matrix/curvature.h"
 #include "ros/bags/loaded_calibration.h"
@@ -124,7 +124,7 @@ class LiveCalibration {
   void interruptRest(const std::string& why);
   void markRest(RestMark mark);
   fsr::calibration::ShapeCheck measureShape(double patience);
-  fsr::compensation::RestReading awaitRest(std::unique_lock<std::mutex>& lock, double patience);
+  fsr::calibration::RestReading awaitRest(std::unique_lock<std::mutex>& lock, double patience);
 
   const CalibrationSettings settings_;
   std::mutex files_;          // guards the files of tare and mask; locked before mutex_

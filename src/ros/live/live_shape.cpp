@@ -67,12 +67,12 @@ void LiveCalibration::compareAtRest() {
   std::unique_lock<std::mutex> lock(mutex_);
   if (!rest_ || !rest_full_ || rest_asked_ || !loaded_) return;
   const fsr::matrix::Surface surface = surface_;
-  const std::shared_ptr<const fsr::compensation::ShapeModel> model = loaded_->shape;
+  const std::shared_ptr<const fsr::calibration::ShapeModel> model = loaded_->shape;
   fsr::calibration::ShapeCheck check;
   try {
     const std::string obstacle = obstacleToShape();
     if (!obstacle.empty()) throw fsr::settings::InputError(kRefused + obstacle);
-    const fsr::compensation::RestReading reading = rest_->reading();
+    const fsr::calibration::RestReading reading = rest_->reading();
     rest_.reset();
     lock.unlock();  // no scan waits for the comparison
     check = fsr::calibration::checkShape(*model, reading, surface);
@@ -96,12 +96,12 @@ fsr::calibration::ShapeCheck LiveCalibration::measureShape(double patience) {
     throw fsr::settings::InputError(kRefused +
                                     "don was marked, so a load may be on; mark doff when it is off");
   if (rest_asked_) throw fsr::settings::InputError(kRefused + "another call is measuring");
-  const std::shared_ptr<const fsr::compensation::ShapeModel> model = loaded_->shape;
+  const std::shared_ptr<const fsr::calibration::ShapeModel> model = loaded_->shape;
   rest_.emplace(*model, settings_.tare);
   rest_full_ = false;
   rest_asked_ = true;
   interruption_.clear();
-  fsr::compensation::RestReading reading;
+  fsr::calibration::RestReading reading;
   try {
     reading = awaitRest(lock, patience);
   } catch (...) {
@@ -120,8 +120,8 @@ fsr::calibration::ShapeCheck LiveCalibration::measureShape(double patience) {
   return check;
 }
 
-fsr::compensation::RestReading LiveCalibration::awaitRest(std::unique_lock<std::mutex>& lock,
-                                                          double patience) {
+fsr::calibration::RestReading LiveCalibration::awaitRest(std::unique_lock<std::mutex>& lock,
+                                                         double patience) {
   const auto give_up = Clock::now() + kLongestWait;
   while (!rest_full_) {
     const std::uint64_t seen = scans_;

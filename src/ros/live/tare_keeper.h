@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "calibration/tare.h"
+#include "calibration/stages/session/tare.h"
 
 namespace fsr_ros {
 

@@ -12,7 +12,7 @@ namespace fsr_ros {
 
 namespace {
 
-using fsr::compensation::HistoryFamily;
+using fsr::calibration::HistoryFamily;
 using fsr::simulation::Covariate;
 
 std::string listed(const std::vector<std::string>& effects) {
@@ -37,7 +37,7 @@ fsr::calibration::HistoryChoice historyOption(const std::string& text, std::stri
   if (text == "auto") return {};
   if (!std::filesystem::exists(text)) {
     try {
-      return {false, fsr::compensation::historyFromName(text)};
+      return {false, fsr::calibration::historyFromName(text)};
     } catch (const fsr::settings::InputError&) {
       throw fsr::settings::InputError(
           "--history is \"" + text +

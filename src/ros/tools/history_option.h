@@ -15,7 +15,7 @@ fsr::calibration::HistoryChoice historyOption(const std::string& text, std::stri
 
 /// The family that describes these effects: one that depends on earlier extremes is a loop, one that depends
 /// on the time since the last reversal fades. kNone if none of them does.
-fsr::compensation::HistoryFamily historyFamilyOf(const std::vector<std::string>& effects);
+fsr::calibration::HistoryFamily historyFamilyOf(const std::vector<std::string>& effects);
 
 /// Whether a model of the temperature is tried: "auto", "none", or "" = as the history, which is not static.
 /// Throws InputError for another text.

@@ -12,7 +12,7 @@ namespace fsr_ros {
 
 namespace {
 
-using fsr::compensation::HistoryFamily;
+using fsr::calibration::HistoryFamily;
 using Protocols = std::vector<fsr::calibration::HistoryScore::Protocol>;
 
 constexpr double kKilopascal = 1e3;  // [Pa]
@@ -34,12 +34,12 @@ std::string gainOf(const fsr::calibration::Calibration& calibration, HistoryFami
   const std::string still = errorOf(score.protocols, HistoryFamily::kNone);
   if (chosen == HistoryFamily::kNone) {
     return "Nothing. On protocols that were left out, a calibration with a model of " +
-           fsr::compensation::historyName(proposed) + " has an error of " +
+           fsr::calibration::historyName(proposed) + " has an error of " +
            errorOf(score.protocols, proposed) + " kPa, the static one of " + still +
            " kPa. A model is used only where it wins over all of them and loses on none.";
   }
   return "On protocols that were left out, the error of the map falls from " + still + " to " +
-         errorOf(score.protocols, chosen) + " kPa with a model of " + fsr::compensation::historyName(chosen) +
+         errorOf(score.protocols, chosen) + " kPa with a model of " + fsr::calibration::historyName(chosen) +
          ". train --history verdict.yaml BAG... uses it.";
 }
 

@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <iostream>
 
-#include "calibration/budget/conditioning_line.h"
 #include "calibration/merge.h"
+#include "calibration/stages/deviation/conditioning_line.h"
 #include "dataset/conditioning.h"
 #include "fsr_pressure_map/calibration/calibration.h"
 #include "fsr_pressure_map/calibration/calibration_file.h"

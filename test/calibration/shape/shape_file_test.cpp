@@ -19,7 +19,7 @@
 namespace fsr::calibration {
 namespace {
 
-using compensation::ShapeModel;
+using ShapeModel;
 
 class ShapeFile : public testing::Test {
  protected:
@@ -77,11 +77,11 @@ TEST_F(ShapeFile, KeepsTheWholeModel) {
 }
 
 TEST_F(ShapeFile, KeepsScatterAndLawOfBothFamilies) {
-  for (const auto family : {compensation::FieldFamily::kMatern, compensation::FieldFamily::kGaussian}) {
+  for (const auto family : {FieldFamily::kMatern, FieldFamily::kGaussian}) {
     Calibration saved = calibration();
     saved.shape.scatter.family = family;
     const ShapeModel read = reloaded(saved).shape;
-    const compensation::MountScatter &own = saved.shape.scatter, &kept = read.scatter;
+    const MountScatter &own = saved.shape.scatter, &kept = read.scatter;
     EXPECT_EQ(kept.family, own.family);
     EXPECT_EQ(kept.deviation, own.deviation);
     EXPECT_EQ(kept.length, own.length);
@@ -89,7 +89,7 @@ TEST_F(ShapeFile, KeepsScatterAndLawOfBothFamilies) {
     EXPECT_EQ(kept.white, own.white);
     EXPECT_EQ(kept.history, own.history);
     EXPECT_EQ(kept.contrasts, own.contrasts);
-    const compensation::ShapeLaw &law = saved.shape.law, &kept_law = read.law;
+    const ShapeLaw &law = saved.shape.law, &kept_law = read.law;
     EXPECT_EQ(kept_law.common, law.common);
     EXPECT_EQ(kept_law.common_length, law.common_length);
     EXPECT_EQ(kept_law.own_offset, law.own_offset);

@@ -1,7 +1,7 @@
 // What training learns of how the sheet rests, on a simulated rig: nothing is said against sound mounts, a
 // surface that is declared wrongly is named, and what is missing is said in a sentence.
 
-#include "calibration/shape/learn_from_mounts.h"
+#include "calibration/stages/shape/learn_from_mounts.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <string>
 
 #include "calibration/merge.h"
-#include "calibration/shape/mount_checks.h"
+#include "calibration/stages/shape/mount_checks.h"
 #include "fsr_pressure_map/calibration/calibration.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "fsr_pressure_map/simulation/simulate.h"
@@ -69,7 +69,7 @@ Calibration trained(Recordings recordings, const std::string& model = "monotone"
   problem.options.date = "2026-11-23T12:00:00Z";
   problem.options.scores = false;
   problem.options.regressor.name = model;
-  problem.options.history = {false, compensation::HistoryFamily::kNone};
+  problem.options.history = {false, HistoryFamily::kNone};
   problem.options.temperature = false;
   return calibrate(problem);
 }
@@ -88,7 +88,7 @@ TEST(ShapeTraining, LearnsTheSurfacesAndSaysNothingAgainstSoundMounts) {
     Rig rig;
     rig.seed = seed;
     const Calibration calibration = trained(recordingsOf(rig));
-    const compensation::ShapeModel& shape = calibration.shape;
+    const ShapeModel& shape = calibration.shape;
     ASSERT_TRUE(shape.present()) << shape.missing;
     EXPECT_EQ(shape.surfaces, (std::vector<std::string>{"flat", "cylinder_20cm", "cylinder_11cm",
                                                         "cylinder_7cm", "cylinder_5cm"}));
@@ -198,9 +198,9 @@ TEST(ShapeTraining, LeavesOutSurfacesWhoseCurvatureChangesAlongTheSheet) {
 
 TEST(ShapeTraining, GivesTheSameForBagsInAnotherOrder) {
   Recordings recordings = recordingsOf({});
-  const compensation::ShapeModel shape = trained(recordings).shape;
+  const ShapeModel shape = trained(recordings).shape;
   std::reverse(recordings.begin(), recordings.end());
-  const compensation::ShapeModel reversed = trained(recordings).shape;
+  const ShapeModel reversed = trained(recordings).shape;
   EXPECT_EQ(reversed.curvature, shape.curvature);
   ASSERT_EQ(reversed.rest.size(), shape.rest.size());
   for (std::size_t i = 0; i < shape.rest.size(); ++i) EXPECT_NEAR(reversed.rest[i], shape.rest[i], 1e-6);
@@ -240,14 +240,14 @@ class CheckShapes : public testing::Test {
   }
   // Readings at rest under a load that the chamber does not show [Pa], as far as the first scans tell it:
   // the readings of the scans at which the chamber is at that pressure.
-  static compensation::RestReading under(const dataset::Recording& recording, double load, bool half) {
+  static RestReading under(const dataset::Recording& recording, double load, bool half) {
     const std::vector<std::size_t> rest = restAtStart(recording, 0);
     std::size_t nearest = 0;
     for (std::size_t i = 0; i < recording.scans(); ++i) {
       if (std::abs(recording.pressure[i] - load) < std::abs(recording.pressure[nearest] - load)) nearest = i;
     }
-    compensation::RestReading reading = readingAtRest(recording, rest);
-    const compensation::RestReading loaded = readingAtRest(recording, {nearest});
+    RestReading reading = readingAtRest(recording, rest);
+    const RestReading loaded = readingAtRest(recording, {nearest});
     for (std::size_t t = 0; t < reading.reading.size(); ++t) {
       if (!half || t % 5 < 3) reading.reading[t] = loaded.reading[t];
     }
@@ -332,7 +332,7 @@ TEST_F(CheckShapes, AbstainsOnAnotherSheet) {
   other.seed = 9;
   other.mounts = 1;
   for (const dataset::Recording& recording : recordingsOf(other)) {
-    const compensation::RestReading rest = readingAtRest(recording, restAtStart(recording, 0));
+    const RestReading rest = readingAtRest(recording, restAtStart(recording, 0));
     const ShapeCheck check = checkShape(calibration().shape, rest, recording.conditions.front());
     EXPECT_NE(check.verdict, ShapeVerdict::kDisagrees) << recording.name << ": " << check.sentence;
     if (recording.conditions.front().name == "flat") continue;  // all sheets are alike where nothing presses
@@ -375,7 +375,7 @@ TEST(TemperatureObstacle, IsNoneWhereATemperatureIsNotKnown) {
 }
 
 TEST_F(CheckShapes, SaysWhyThereIsNoModel) {
-  compensation::ShapeModel none;
+  ShapeModel none;
   none.missing = "no bag starts with a rest";
   const ShapeCheck check = checkShape(none, {}, {});
   EXPECT_EQ(check.verdict, ShapeVerdict::kUnknown);
@@ -383,7 +383,7 @@ TEST_F(CheckShapes, SaysWhyThereIsNoModel) {
 }
 
 TEST_F(CheckShapes, SaysHowManyTaxelsAreMissing) {
-  compensation::RestReading rest = readingAtRest(fresh()[0], restAtStart(fresh()[0], 0));
+  RestReading rest = readingAtRest(fresh()[0], restAtStart(fresh()[0], 0));
   std::fill(rest.reading.begin(), rest.reading.begin() + 11, NAN);
   EXPECT_EQ(checkShape(calibration().shape, rest, fresh()[0].conditions.front()).sentence,
             "how the sheet lies cannot be told: only 9 of 20 taxels have a reading, too few to tell how the "

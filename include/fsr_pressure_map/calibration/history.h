@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace fsr::calibration {
+
+/// What the memory of the sheet is described by.
+enum class HistoryFamily : std::uint8_t {
+  kNone,      ///< nothing: the static answer
+  kPlays,     ///< a loop that does not depend on time: play operators
+  kMemories,  ///< creep or relaxation: exponentially fading memories
+  kBoth,
+};
+
+/// The id that files and options use: none, plays, memories, both.
+std::string historyName(HistoryFamily family);
+
+/// Throws InputError that lists the names.
+HistoryFamily historyFromName(const std::string& name);
+
+/// Time after which memories no longer depend on what was before: three of the longest time constant [s]; 0
+/// without memories.
+double settlingTime(const std::vector<double>& time_constants);
+
+/// The part of the pressure that depends on earlier readings, the same for all taxels:
+///
+///     p = x + c(x) + sum_j w_j (play_{r_j}(x) - x) + sum_k v_k (ema_{tau_k}(x) - x)
+///
+/// x [Pa] is the static answer of the taxel's table. The plays and the memories are driven by x and never by
+/// p, so |p| is bounded wherever x is. For a Prandtl-Ishlinskii loop and for creep as a sum of exponentials
+/// this form contains the exact inverse (M. Brokate and J. Sprekels, Hysteresis and Phase Transitions, 1996,
+/// ch. 2; the poles and zeros of 1 + sum a_i / (1 + s tau_i) interlace). c(x) corrects the static answer,
+/// because a table that was trained without memory contains the mean memory of its training.
+struct HistoryModel {
+  HistoryFamily family = HistoryFamily::kNone;
+  std::vector<double> knot;  ///< of c, evenly spaced, ascending [Pa]; two or more unless family is kNone
+  std::vector<double> correction;  ///< c at each knot, constant beyond them [Pa]
+  std::vector<double> radius;      ///< of the plays, above 0 [Pa]
+  std::vector<double> play_weight;
+  std::vector<double> time_constant;  ///< of the memories, above 0 [s]
+  std::vector<double> memory_weight;
+  /// Of a reading of a protocol that training left out, by pressure, constant beyond the knots: where the
+  /// sheet is being loaded, and where it is being unloaded. It is being unloaded where the first operator, a
+  /// play if there is one, lies above x.
+  std::vector<double> deviation_knot;       ///< evenly spaced, ascending [Pa]
+  std::vector<double> loading_deviation;    ///< [Pa]
+  std::vector<double> unloading_deviation;  ///< [Pa]
+
+  bool present() const { return family != HistoryFamily::kNone; }
+  /// The smallest of the stated deviations [Pa]; 0 if there is none.
+  double smallestDeviation() const;
+  /// Time after which the readings before the first one move the memories by less than the smallest
+  /// deviation, whatever they were between 0 and the last knot: at most three of the longest time constant
+  /// [s]; 0 without memories.
+  double settlingTime() const;
+  /// The largest error of the plays from what is not known of the time before the first reading, after
+  /// readings between `lowest` and `highest` [Pa]. A play of radius r then lies within a span of
+  /// min(lowest, 2 r - (highest - lowest)): see HistoryOperators::startConditioned().
+  double playsOwe(double lowest, double highest) const noexcept;
+};
+
+}  // namespace fsr::calibration

@@ -1,0 +1,272 @@
+#include "calibration/stages/memory/history_folds.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "calibration/stages/memory/history_parts.h"
+#include "matrix/for_each_taxel.h"
+
+namespace fsr::calibration {
+
+namespace {
+
+constexpr double kWithin = 0.682689492;  // of a normal distribution within one deviation
+constexpr double kSmallest = 1e-6;       // of the absolute errors that are told apart, share of `highest`
+
+}  // namespace
+
+HistoryErrors::HistoryErrors(double highest) : highest_(highest), parts_(kHistoryParts) {}
+
+std::size_t HistoryErrors::bin(const Reading& reading) const {
+  const double at = reading.answer / highest_ * static_cast<double>(kBins);
+  const auto place = static_cast<std::size_t>(std::min(std::max(at, 0.0), static_cast<double>(kBins - 1)));
+  return place + (reading.unloading ? kBins : 0);
+}
+
+// Upper end of a level [Pa].
+double HistoryErrors::level(std::size_t number) const {
+  return highest_ * kSmallest *
+         std::pow(1 / kSmallest, static_cast<double>(number + 1) / static_cast<double>(kLevels - 1));
+}
+
+void HistoryErrors::add(const Reading& reading) {
+  const double before = reading.static_answer - reading.truth, error = reading.answer - reading.truth;
+  const double share = std::max(std::abs(error) / (highest_ * kSmallest), 1.0);
+  const double at = std::log(share) / std::log(1 / kSmallest) * static_cast<double>(kLevels - 1);
+  const auto place = static_cast<std::size_t>(std::min(at, static_cast<double>(kLevels - 1)));
+  const std::size_t own = bin(reading);
+  const std::array<std::size_t, 3> parts = historyPartsOf(reading.direction, reading.since_reversal);
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    if (k > 0 && parts[k] == parts[k - 1]) continue;
+    Sum& sum = parts_[parts[k]];
+    ++sum.readings;
+    sum.static_square += before * before;
+    sum.square += error * error;
+    ++sum.errors[own][place];
+  }
+}
+
+void HistoryErrors::merge(const HistoryErrors& other) {
+  for (std::size_t p = 0; p < parts_.size(); ++p) {
+    parts_[p].readings += other.parts_[p].readings;
+    parts_[p].static_square += other.parts_[p].static_square;
+    parts_[p].square += other.parts_[p].square;
+    for (std::size_t b = 0; b < 2 * kBins; ++b) {
+      for (std::size_t l = 0; l < kLevels; ++l) parts_[p].errors[b][l] += other.parts_[p].errors[b][l];
+    }
+  }
+}
+
+// NaN for a bin without readings.
+double HistoryErrors::quantile(std::size_t bin) const {
+  const auto& errors = parts_[0].errors[bin];
+  std::uint64_t all = 0, below = 0;
+  for (const std::uint64_t count : errors) all += count;
+  if (all == 0) return std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t l = 0; l < kLevels; ++l) {
+    below += errors[l];
+    if (static_cast<double>(below) >= kWithin * static_cast<double>(all)) return level(l);
+  }
+  return level(kLevels - 1);
+}
+
+std::vector<double> HistoryErrors::deviation(std::size_t first_bin) const {
+  std::vector<double> deviation;
+  for (std::size_t b = 0; b < kBins; ++b) deviation.push_back(quantile(first_bin + b));
+  for (std::size_t b = 1; b < kBins; ++b)
+    if (std::isnan(deviation[b])) deviation[b] = deviation[b - 1];
+  for (std::size_t b = kBins - 1; b-- > 0;)
+    if (std::isnan(deviation[b])) deviation[b] = deviation[b + 1];
+  return deviation;
+}
+
+void HistoryErrors::setDeviation(HistoryModel& model) const {
+  const double width = highest_ / static_cast<double>(kBins);
+  model.deviation_knot.clear();
+  for (std::size_t b = 0; b < kBins; ++b)
+    model.deviation_knot.push_back((static_cast<double>(b) + 0.5) * width);
+  model.loading_deviation = deviation(0);
+  model.unloading_deviation = deviation(kBins);
+  // Readings of one direction only: nothing else is known of the other one.
+  if (std::isnan(model.loading_deviation.front())) model.loading_deviation = model.unloading_deviation;
+  if (std::isnan(model.unloading_deviation.front())) model.unloading_deviation = model.loading_deviation;
+}
+
+std::vector<HistoryScore::Part> HistoryErrors::parts() const {
+  std::vector<HistoryScore::Part> parts;
+  for (std::size_t p = 0; p < parts_.size(); ++p) {
+    const Sum& sum = parts_[p];
+    if (sum.readings == 0) continue;
+    const double readings = static_cast<double>(sum.readings);
+    std::uint64_t within = 0;
+    for (std::size_t b = 0; b < 2 * kBins; ++b) {
+      const double deviation = quantile(b);
+      for (std::size_t l = 0; l < kLevels && level(l) <= deviation; ++l) within += sum.errors[b][l];
+    }
+    parts.push_back({historyPartName(p), sum.readings, std::sqrt(sum.static_square / readings),
+                     std::sqrt(sum.square / readings), static_cast<double>(within) / readings});
+  }
+  return parts;
+}
+
+namespace {
+
+// Lowest and highest code of the sections but one.
+void setTrainedCodes(const std::vector<regression::CodeStatistics>& sections, std::size_t left_out,
+                     StaticAnswer& answer) {
+  answer.lowest = 0xffff;
+  answer.highest = 0;
+  for (std::size_t s = 0; s < sections.size(); ++s) {
+    if (s == left_out) continue;
+    sections[s].forEach([&](const regression::CodeSums& sums) {
+      answer.lowest = std::min(answer.lowest, sums.code);
+      answer.highest = std::max(answer.highest, sums.code);
+    });
+  }
+}
+
+// Those that a tare belongs to.
+std::vector<Session> sessionsOf(const HistoryProblem& problem, std::size_t recording) {
+  std::vector<Session> own;
+  if (problem.sessions == nullptr) return own;
+  for (const Session& session : problem.sessions->all) {
+    if (session.recording == recording) own.push_back(session);
+  }
+  return own;
+}
+
+}  // namespace
+
+HistoryFolds::HistoryFolds(const HistoryProblem& problem, const dataset::Protocols& protocols,
+                           unsigned threads, const Calibration& calibration,
+                           std::vector<std::vector<double>> judged)
+    : problem_(problem),
+      protocols_(protocols),
+      threads_(threads),
+      calibration_(calibration),
+      judged_(std::move(judged)),
+      grid_(historyGrid(protocols.highest, protocols.longest_hold)) {
+  std::vector<dataset::Sections> by_protocol = problem.sections;
+  for (std::size_t r = 0; r < problem.recordings.size(); ++r) {
+    streams_.emplace_back(problem.recordings[r], problem.classes.class_of[r], problem.sections[r],
+                          protocols.of_scan[r], grid_, sessionsOf(problem, r));
+    for (std::size_t i = 0; i < problem.recordings[r].scans(); ++i) {
+      std::uint32_t& section = by_protocol[r].section[i];
+      if (section == dataset::kNoSection) continue;
+      const std::uint32_t own = protocols.of_scan[r][i];
+      section = own == dataset::Protocols::kOther ? static_cast<std::uint32_t>(count()) : own;
+    }
+  }
+  scans_ = gatherScans(problem.recordings, problem.classes, by_protocol, problem.zeros);
+}
+
+template <typename Work>
+void HistoryFolds::forEachModelledTaxel(Work&& work) const {
+  matrix::forEachTaxel(calibration_.no_model.size(), threads_, [&](std::size_t taxel) {
+    if (calibration_.no_model[taxel] == 0) work(taxel);
+  });
+}
+
+std::vector<HistoryFolds::Answers> HistoryFolds::answersWithoutEach(std::size_t taxel) const {
+  const compensation::SectionedReadings readings =
+      sectionedReadings(scans_, count() + 1, calibration_.tables.full_scale, taxel, problem_.regressor);
+  const auto models = compensation::crossValidateScheme(problem_.plan, taxel, readings, problem_.regressor,
+                                                        regression::HeldOutDeviation::kNo);
+  std::vector<Answers> answers(count(), Answers(readings.sums.size()));
+  for (std::size_t g = 0; g < count(); ++g) {
+    for (std::size_t k = 0; k < readings.sums.size(); ++k) {
+      answers[g][k].pressure = models[problem_.plan.model_of_class[k]].held_out[g].pressure;
+      setTrainedCodes(readings.sums[k], g, answers[g][k]);
+    }
+  }
+  return answers;
+}
+
+HistoryFolds::Answers HistoryFolds::answersOfTables(std::size_t taxel) const {
+  Answers answers(problem_.classes.classes.size());
+  const bool one = calibration_.tables.classes.size() == 1;
+  for (std::size_t k = 0; k < answers.size(); ++k) {
+    const auto& table = calibration_.tables.table(taxel, one ? 0 : k).pressure;
+    if (!table.empty() && !std::isnan(table.front())) answers[k].pressure.assign(table.begin(), table.end());
+  }
+  return answers;
+}
+
+// A row is the mean of the scans within half a second.
+void HistoryFolds::addRows(std::size_t taxel, const Answers& answers, std::size_t left_out,
+                           Sums& sums) const {
+  for (std::size_t r = 0; r < streams_.size(); ++r)
+    addHistoryRows(streams_[r], grid_, taxel, answers, left_out, sums,
+                   judged_.empty() ? nullptr : &judged_[r]);
+  sums.trained.finish();
+  sums.left_out.finish();
+}
+
+// Taxels are added in their order, so that the result does not depend on the number of threads.
+std::vector<HistoryFolds::Sums> HistoryFolds::leaveOneOut() const {
+  std::vector<std::vector<Sums>> each(calibration_.no_model.size());
+  forEachModelledTaxel([&](std::size_t taxel) {
+    const std::vector<Answers> answers = answersWithoutEach(taxel);
+    for (std::size_t g = 0; g < count(); ++g) {
+      each[taxel].push_back({HistorySums(grid_.features()), HistorySums(grid_.features())});
+      addRows(taxel, answers[g], g, each[taxel].back());
+    }
+  });
+  std::vector<Sums> all(count(), {HistorySums(grid_.features()), HistorySums(grid_.features())});
+  for (const std::vector<Sums>& own : each) {
+    for (std::size_t g = 0; g < own.size(); ++g) {
+      all[g].trained.merge(own[g].trained);
+      all[g].left_out.merge(own[g].left_out);
+    }
+  }
+  return all;
+}
+
+HistorySums HistoryFolds::whole() const {
+  std::vector<Sums> each(calibration_.no_model.size(),
+                         {HistorySums(grid_.features()), HistorySums(grid_.features())});
+  forEachModelledTaxel(
+      [&](std::size_t taxel) { addRows(taxel, answersOfTables(taxel), count(), each[taxel]); });
+  HistorySums all(grid_.features());
+  for (const Sums& own : each) all.merge(own.trained);
+  return all;
+}
+
+// The first operator of the model, among those of the grid.
+std::size_t HistoryFolds::firstOperator(const HistoryModel& model) const {
+  const bool plays = !model.radius.empty();
+  const std::vector<double>& all = plays ? grid_.radii : grid_.time_constants;
+  const std::vector<double>& own = plays ? model.radius : model.time_constant;
+  const auto place = own.empty() ? all.begin() : std::find(all.begin(), all.end(), own.front());
+  return (plays ? 0 : grid_.radii.size()) + static_cast<std::size_t>(place - all.begin());
+}
+
+void HistoryFolds::addErrors(std::size_t taxel, const Answers& answers, std::size_t protocol,
+                             std::size_t first_operator, const Eigen::VectorXd& coefficients,
+                             HistoryErrors& errors) const {
+  Eigen::VectorXd features(Eigen::Index(grid_.features()));
+  for (const HistoryStream& stream : streams_) {
+    stream.run(taxel, answers, [&](const HistoryStream::Scan& scan, double x, const double* state) {
+      if (scan.protocol != protocol) return;
+      historyFeatures(grid_, x, state, features.data());
+      errors.add({x, x + coefficients.dot(features), stream.recording().pressure[scan.number],
+                  state[first_operator] > x, stream.sections().direction[scan.number], scan.since_reversal});
+    });
+  }
+}
+
+HistoryErrors HistoryFolds::errors(const HistoryModel& model,
+                                   const std::vector<Eigen::VectorXd>& coefficients) const {
+  const std::size_t first = firstOperator(model);
+  std::vector<HistoryErrors> each(calibration_.no_model.size(), HistoryErrors(protocols_.highest));
+  forEachModelledTaxel([&](std::size_t taxel) {
+    const std::vector<Answers> answers = answersWithoutEach(taxel);
+    for (std::size_t g = 0; g < count(); ++g)
+      addErrors(taxel, answers[g], g, first, coefficients[g], each[taxel]);
+  });
+  HistoryErrors all(protocols_.highest);
+  for (const HistoryErrors& own : each) all.merge(own);
+  return all;
+}
+
+}  // namespace fsr::calibration

@@ -1,0 +1,106 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "calibration/stages/memory/history_fit.h"
+#include "calibration/stages/memory/history_stream.h"
+#include "calibration/stages/memory/history_training.h"
+#include "calibration/stages/tables/training_scans.h"
+#include "dataset/protocols.h"
+#include "fsr_pressure_map/calibration/calibration.h"
+
+namespace fsr::calibration {
+
+/// Errors of the readings of protocols that were left out, of the static answer and with a history model.
+class HistoryErrors {
+ public:
+  /// `highest`: largest pressure of the bags [Pa].
+  explicit HistoryErrors(double highest);
+
+  struct Reading {
+    double static_answer = 0;  ///< [Pa]
+    double answer = 0;         ///< [Pa]
+    double truth = 0;          ///< [Pa]
+    bool unloading = false;    ///< as the model sees it, see HistoryModel
+    statistics::LoadDirection direction = statistics::LoadDirection::kNone;  ///< of the chamber
+    double since_reversal = 0;                                               ///< [s]
+  };
+  void add(const Reading& reading);
+  void merge(const HistoryErrors& other);
+
+  /// The deviations of a model: in each bin of its answer and each direction the absolute error that 68.27 %
+  /// of the readings do not exceed. Bins without readings take that of their neighbour.
+  void setDeviation(HistoryModel& model) const;
+
+  /// All readings; loading and unloading; by time since the last reversal. Parts without readings are absent.
+  std::vector<HistoryScore::Part> parts() const;
+
+ private:
+  static constexpr std::size_t kBins = 12;     // of the answer, in each direction
+  static constexpr std::size_t kLevels = 256;  // of the absolute error, evenly spaced in its logarithm
+
+  struct Sum {
+    std::uint64_t readings = 0;
+    double static_square = 0, square = 0;                                   // [Pa^2]
+    std::array<std::array<std::uint64_t, kLevels>, 2 * kBins> errors = {};  // loading, then unloading
+  };
+
+  std::size_t bin(const Reading& reading) const;
+  std::vector<double> deviation(std::size_t first_bin) const;
+  double quantile(std::size_t bin) const;
+  double level(std::size_t number) const;
+
+  double highest_;
+  std::vector<Sum> parts_;
+};
+
+/// The bags of a training, divided by protocol: each protocol in turn is answered by tables that were trained
+/// without it. The results do not depend on the number of threads.
+class HistoryFolds {
+ public:
+  /// All arguments but `judged` must outlive the object. `calibration` must have its tables. `judged`: the
+  /// pressures that scans have where their protocol is left out [recordings][scans] [Pa]; empty = those of
+  /// the recordings.
+  HistoryFolds(const HistoryProblem& problem, const dataset::Protocols& protocols, unsigned threads,
+               const Calibration& calibration, std::vector<std::vector<double>> judged = {});
+
+  const HistoryGrid& grid() const { return grid_; }
+  const dataset::Protocols& protocols() const { return protocols_; }
+
+  using Sums = LeftOutSums;
+  /// Of all taxels, [protocols].
+  std::vector<Sums> leaveOneOut() const;
+  /// With the tables of the calibration, which were trained on all protocols.
+  HistorySums whole() const;
+
+  /// Errors of the readings of each protocol, predicted without it. `coefficients` [protocols] were trained
+  /// without the protocol, `model` on all of them.
+  HistoryErrors errors(const HistoryModel& model, const std::vector<Eigen::VectorXd>& coefficients) const;
+
+ private:
+  using Answers = std::vector<StaticAnswer>;  // of one taxel, [classes]
+
+  std::size_t count() const { return protocols_.names.size(); }
+  std::vector<Answers> answersWithoutEach(std::size_t taxel) const;
+  Answers answersOfTables(std::size_t taxel) const;
+  void addRows(std::size_t taxel, const Answers& answers, std::size_t left_out, Sums& sums) const;
+  void addErrors(std::size_t taxel, const Answers& answers, std::size_t protocol, std::size_t first_operator,
+                 const Eigen::VectorXd& coefficients, HistoryErrors& errors) const;
+  std::size_t firstOperator(const HistoryModel& model) const;
+  template <typename Work>
+  void forEachModelledTaxel(Work&& work) const;
+
+  const HistoryProblem& problem_;
+  const dataset::Protocols& protocols_;
+  unsigned threads_;
+  const Calibration& calibration_;
+  std::vector<std::vector<double>> judged_;
+  HistoryGrid grid_;
+  std::vector<HistoryStream> streams_;
+  TrainingScans scans_;  // the section of a scan is its protocol; the last one is of no protocol
+};
+
+}  // namespace fsr::calibration

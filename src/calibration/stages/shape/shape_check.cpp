@@ -1,0 +1,211 @@
+#include "calibration/stages/shape/shape_check.h"
+
+#include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <cmath>
+
+#include "calibration/stages/shape/learn_shape.h"
+#include "calibration/stages/shape/read_shape.h"
+#include "fsr_pressure_map/dataset/condition_classes.h"
+#include "fsr_pressure_map/settings/input_error.h"
+#include "settings/number_text.h"
+
+namespace fsr::calibration {
+
+namespace {
+
+constexpr double kWidest = 0.5;  // share of the range of training: a wider interval tells too little
+// A model allows for 3 % of sensitivity; sheets change by some 0.4 to 0.6 % a kelvin.
+constexpr double kTemperatureMargin = 5;  // [K]
+constexpr double kBadFit = 0.05;  // a fit that is worse with this probability says that something else acts
+
+std::vector<double> principalCurvatures(const matrix::Surface& surface) {
+  std::vector<double> curvatures;
+  for (const matrix::Curvature& c : surface.curvature) curvatures.push_back(matrix::principalCurvature(c));
+  return curvatures;
+}
+
+// "cylinder_9cm (9.0 cm)", "cone (12.5 cm to 8.3 cm)".
+std::string declaredText(const matrix::Surface& surface) {
+  const std::vector<double> bends = principalCurvatures(surface);
+  const auto [low, high] = std::minmax_element(bends.begin(), bends.end());
+  const std::string name = surface.name.empty() ? "the declared surface" : surface.name;
+  return name + " (" + bendText(*low) + (*low == *high ? "" : " to " + bendText(*high)) + ")";
+}
+
+std::string abstention(const std::string& why) {
+  return "how the sheet lies cannot be told: " + why;
+}
+
+std::string unfit(const ShapeModel& model) {
+  return "the readings at rest fit none of the bends of training, " + bendText(model.curvature.front()) +
+         " to " + bendText(model.curvature.back()) +
+         "; a load or a strap, another temperature, another sheet or a bend beyond training would explain it";
+}
+
+}  // namespace
+
+std::string bendText(double curvature) {
+  if (std::abs(curvature) <= dataset::kFlatCurvature) return "flat";
+  return (curvature < 0 ? "concave, " : "") + settings::fixedText(100 / std::abs(curvature), 1) + " cm";
+}
+
+std::string restText(const ShapeEstimate& estimate) {
+  return "the sheet rests as on " + bendText(estimate.curvature) + " (" + bendText(estimate.high) + " to " +
+         bendText(estimate.low) + ")";
+}
+
+std::string openText(const ShapeEstimate& estimate) {
+  return abstention("the readings at rest leave " + bendText(estimate.high) + " to " +
+                    bendText(estimate.low) + " open");
+}
+
+namespace {
+
+double rangeOf(const ShapeModel& model) {
+  return model.curvature.back() - model.curvature.front();
+}
+
+// "a bend that changes from 12.5 cm to 8.3 cm along a row": along the axis of the larger change.
+std::string changeText(const ChangingBend& bend) {
+  const bool row = std::abs(bend.along_x.change) >= std::abs(bend.along_y.change);
+  const double half = (row ? bend.along_x : bend.along_y).change / 2;
+  return "a bend that changes from " + bendText(bend.centre - half) + " to " + bendText(bend.centre + half) +
+         " along a " + (row ? "row" : "column");
+}
+
+double limitOf(double alarm, int parameters) {
+  return boost::math::quantile(boost::math::complement(boost::math::chi_squared(parameters), alarm));
+}
+
+/// Compares the readings of one rest with declared surfaces.
+class Comparison {
+ public:
+  Comparison(const ShapeModel& model, const RestReading& rest, double alarm)
+      : model_(model), rest_(rest), reader_(model), alarm_(alarm), estimate_(reader_.estimate(rest)) {}
+
+  const ShapeEstimate& estimate() const { return estimate_; }
+
+  bool agrees(const std::vector<double>& curvature) const {
+    return 2 * (estimate_.likelihood - logarithm(curvature)) <= limitOf(alarm_, 1);
+  }
+
+  void check(const matrix::Surface& declared, ShapeCheck& check) const {
+    check.estimate = estimate_;
+    check.change = tellBendChange(reader_, model_, rest_, estimate_);
+    check.changes = check.change.probability < alarm_ && check.change.fit >= kBadFit;
+    if (check.changes) {
+      judgeChanging(declared, check);
+    } else if (estimate_.fit < kBadFit) {
+      check.sentence = abstention(unfit(model_));
+    } else {
+      judgeConstant(declared, check);
+    }
+  }
+
+ private:
+  double logarithm(const std::vector<double>& curvature) const {
+    return reader_.likelihood(rest_, curvature).logarithm;
+  }
+
+  // A strap over a part of the sheet reads like a bend that changes: only a surface file that says so is
+  // believed. The best of three numbers is compared.
+  void judgeChanging(const matrix::Surface& declared, ShapeCheck& check) const {
+    const bool varies = declared.curvature.size() > 1;
+    if (varies &&
+        2 * (check.change.likelihood - logarithm(principalCurvatures(declared))) <= limitOf(alarm_, 3)) {
+      check.verdict = ShapeVerdict::kAgrees;
+      check.sentence = "the sheet rests as on " + changeText(check.change) + ", which agrees with " +
+                       declaredText(declared);
+    } else {
+      check.sentence = abstention("the readings at rest fit no single bend; " + changeText(check.change) +
+                                  " would explain them, and so would a load on a part of the sheet");
+    }
+  }
+
+  void judgeConstant(const matrix::Surface& declared, ShapeCheck& check) const {
+    for (std::size_t s = 0; s < model_.curvature.size(); ++s) {
+      if (agrees({model_.curvature[s]})) check.possible.push_back(model_.surfaces[s]);
+    }
+    const std::string found = restText(estimate_);
+    check.estimated = !estimate_.beyond && estimate_.high - estimate_.low <= kWidest * rangeOf(model_);
+    if (!declared.known()) {
+      check.sentence = check.estimated ? found + "; no surface is declared" : openText(estimate_);
+    } else if (agrees(principalCurvatures(declared))) {
+      check.verdict = ShapeVerdict::kAgrees;
+      check.sentence = found + ", which agrees with " + declaredText(declared);
+    } else if (estimate_.beyond) {
+      check.sentence = abstention(unfit(model_));
+    } else {
+      check.verdict = ShapeVerdict::kDisagrees;
+      check.sentence = found + ", but the surface file says " + declaredText(declared);
+    }
+  }
+
+  const ShapeModel& model_;
+  const RestReading& rest_;
+  ShapeReader reader_;
+  double alarm_;
+  ShapeEstimate estimate_;
+};
+
+}  // namespace
+
+ShapeCheck checkShape(const ShapeModel& model, const RestReading& rest, const matrix::Surface& declared,
+                      double alarm) {
+  if (!model.present()) return abstainsBecause(model.missing);
+  ShapeCheck check;
+  try {
+    Comparison(model, rest, alarm).check(declared, check);
+  } catch (const settings::InputError& error) {
+    return abstainsBecause(error.what());
+  }
+  return check;
+}
+
+ShapeCheck abstainsBecause(const std::string& why) {
+  ShapeCheck check;
+  check.sentence = abstention(why);
+  return check;
+}
+
+std::string sensorObstacle(const std::string& serial, const std::string& trained) {
+  if (serial.empty() || trained.empty() || serial == trained) return "";
+  return "the board is " + serial + ", but the calibration was trained on " + trained +
+         "; each sheet has its own rest";
+}
+
+std::string temperatureObstacle(double temperature, double low, double high) {
+  if (!(temperature < low - kTemperatureMargin) && !(temperature > high + kTemperatureMargin)) return "";
+  return "the sheet is at " + settings::fixedText(temperature, 1) + " degrees Celsius, but was trained at " +
+         settings::fixedText(low, 1) + " to " + settings::fixedText(high, 1) +
+         "; another sensitivity reads like another bend";
+}
+
+bool agreesIfConstant(const ShapeModel& model, const RestReading& rest, const matrix::Surface& declared,
+                      double alarm) {
+  if (!model.present()) return true;
+  try {
+    return Comparison(model, rest, alarm).agrees(principalCurvatures(declared));
+  } catch (const settings::InputError&) {
+    return true;
+  }
+}
+
+bool isKnown(const ShapeModel& model, const BendChange& change) {
+  return change.high - change.low <= kWidest * rangeOf(model);
+}
+
+std::string fixedText(const ShapeModel& model) {
+  if (!model.one_direction)
+    return "Direction of the bend, second curvature and twist are unknown: training bends the sheet in "
+           "several directions.";
+  const matrix::Curvature& bend = model.direction;
+  const std::string along = std::abs(bend.x - 1) < 0.02   ? "rows"
+                            : std::abs(bend.y - 1) < 0.02 ? "columns"
+                                                          : "oblique lines";
+  return "Fixed by the surfaces of training: the bend is along the " + along +
+         ", its second curvature and twist are as there.";
+}
+
+}  // namespace fsr::calibration
