@@ -67,111 +67,182 @@ TrainedRanges findTrainedRanges(const std::vector<dataset::Recording>& recording
   return ranges;
 }
 
-// Training of a calibration: the recordings in the form that training needs, and the work on each taxel.
+// A training of a calibration: what its stages share, and the calibration as far as it is.
 class Training {
  public:
-  explicit Training(const CalibrationProblem& problem)
-      : problem_(problem),
-        classes_(
-            dataset::poolConditions(problem.recordings, compensation::poolingOf(problem.options.scheme))) {
-    for (const dataset::Recording& recording : problem.recordings) {
-      sections_.push_back(dataset::divideIntoSections(recording, problem.options.folds));
-    }
-    plan_ = compensation::planScheme(problem.options.scheme, classes_.classes);
-    sessions_ = findSessions(problem.recordings, classes_);
-    scans_ = gatherScans(problem.recordings, classes_, sections_, zeros_);
-  }
+  Training(const CalibrationProblem& problem, const CalibrationProgress& progress)
+      : options_(problem.options), progress_(progress), recordings_(&problem.recordings) {}
 
-  Calibration run(const CalibrationProgress& progress) {
-    Calibration calibration = describe();
-    const std::size_t taxels = statistics_->taxels;
-    matrix::forEachTaxel(taxels, problem_.options.threads, [&](std::size_t taxel) { sum(taxel); });
-    findTaxelsWithoutModel(plan_, problem_.recordings.front().name, calibration);
-
-    const compensation::FoldRegressors regressors = chooseWithZeros(calibration, progress);
-    RemountErrors remount(problem_.recordings, classes_, sections_, zeros_);
-    const BudgetInput budget{BudgetScale(calibration.trained.pressure),
-                             budgetCycles(problem_.recordings, classes_, sections_), !remount.assessable()};
-    HeldOutScoring scoring(scans_, sections_, plan_, budget, problem_.options.folds, taxels);
-    settings::StepProgress training(progress, "training the taxels", taxels);
-    matrix::forEachTaxel(taxels, problem_.options.threads, [&](std::size_t taxel) {
-      train(taxel, regressors, calibration, scoring);
-      if (calibration.no_model[taxel] == 0) remount.measure(plan_, taxel, regressors.whole, calibration);
-      training.partDone();
-    });
-    const RemountScore remounted = remount.apply(calibration);
-    const UnseenScore unseen = learnRule(plan_, problem_.options.threads, calibration);
-    if (problem_.options.scores) {
-      const SessionScore session = calibration.scores.session;
-      calibration.scores = scoring.summarise(classes_.classes);
-      calibration.scores.session = session;
-      calibration.scores.unseen = unseen;
-      calibration.scores.remount = remounted;
-      budget_scale_ = budget.scale;
-      budget_sums_ = scoring.budget();
-      calibration.budget.intervals =
-          remount.assessable() ? intervalsOf(remount, regressors.whole, calibration) : scoring.intervals();
-      if (remount.assessable()) new_mount_ = remount.newMount();
-    }
-    const HistoryProblem problem{problem_.recordings,
-                                 classes_,
-                                 sections_,
-                                 plan_,
-                                 regressors.whole,
-                                 zeros_,
-                                 calibration.session_zero.expected() ? &sessions_ : nullptr};
-    const settings::StepProgress memory(progress, "history and temperature", 1);
-    trainHistory(problem, problem_.options, calibration);
-    calibration.temperature = chooseTemperature(problem, problem_.options, calibration);
-    return calibration;
-  }
-
-  /// Gives the calibration of run(), which is complete otherwise, its error budget.
-  void addBudget(Calibration& calibration) const {
-    if (!problem_.options.scores) return;
-    ErrorIntervals intervals = std::move(calibration.budget.intervals);
-    calibration.budget = errorBudget(problem_, *budget_scale_, budget_sums_, calibration);
-    calibration.budget.lines.push_back(newMountLine(calibration, new_mount_));
-    calibration.budget.intervals = std::move(intervals);
-  }
-
-  /// `calibration`: of run(), with its ranges of training.
-  void addShape(Calibration& calibration) const {
-    trainShape(problem_.recordings, sessions_, problem_.options.threads, calibration);
-  }
+  Calibration run();
 
  private:
-  // Everything except the results of each taxel.
+  using Stage = void (Training::*)();
+
+  // Each stage is fitted on what those before it leave.
+  void begin();
+  void sessionZero();
+  void tables();
+  void remount();
+  void curvatureRule();
+  void scores();
+  void memory();
+  void temperature();
+  void shape();
+  void budget();
+  static constexpr Stage kTables[] = {&Training::begin,   &Training::sessionZero,   &Training::tables,
+                                      &Training::remount, &Training::curvatureRule, &Training::scores,
+                                      &Training::memory};
+  static constexpr Stage kSheet[] = {&Training::temperature, &Training::shape, &Training::budget};
+
   Calibration describe();
   std::shared_ptr<compensation::TrainingStatistics> emptyStatistics() const;
+  void sumReadings();
   void sum(std::size_t taxel);
-  ErrorIntervals intervalsOf(RemountErrors& remount, const regression::RegressorOptions& regressor,
-                             const Calibration& calibration) const;
-  compensation::FoldRegressors chooseWithZeros(Calibration& calibration, const CalibrationProgress& progress);
-  void train(std::size_t taxel, const compensation::FoldRegressors& regressors, Calibration& calibration,
-             HeldOutScoring& scoring) const;
+  void train(std::size_t taxel);
+  ErrorIntervals intervalsOfMounts();
+  HistoryProblem history() const;
+  template <typename Work>
+  void forEachTaxel(Work&& work) const {
+    matrix::forEachTaxel(statistics_->taxels, options_.threads, work);
+  }
 
-  const CalibrationProblem& problem_;
+  CalibrationOptions options_;
+  const CalibrationProgress& progress_;
+  const std::vector<dataset::Recording>* recordings_;
+  std::vector<dataset::Recording> at_reference_;  // their pressures as they were at T_0; empty = as recorded
+  std::optional<TrainedRanges> recorded_;         // ranges of the pressures as recorded, if they are at T_0
+
   dataset::ConditionClasses classes_;
   std::vector<dataset::Sections> sections_;
   compensation::SchemePlan plan_;
   Sessions sessions_;
   SessionZeros zeros_;  // empty = none
   TrainingScans scans_;
-  std::shared_ptr<compensation::TrainingStatistics> statistics_;  // filled by sum()
-  std::optional<BudgetScale> budget_scale_;                       // by run(), where there are scores
-  BudgetSums budget_sums_;
-  NewMountErrors new_mount_;
+  compensation::FoldRegressors regressors_;
+  std::shared_ptr<compensation::TrainingStatistics> statistics_;  // filled by sumReadings()
+  std::optional<RemountErrors> remount_;
+  std::optional<HeldOutScoring> scoring_;
+  RemountScore remounted_;
+  UnseenScore unseen_;
+  std::optional<BudgetScale> budget_scale_;
+  Calibration calibration_;
 };
 
+Calibration Training::run() {
+  for (const Stage stage : kTables) (this->*stage)();
+  for (const Stage stage : kSheet) (this->*stage)();
+  return std::move(calibration_);
+}
+
+// The recordings in the form that training needs, and a calibration without tables.
+void Training::begin() {
+  classes_ = dataset::poolConditions(*recordings_, compensation::poolingOf(options_.scheme));
+  sections_.clear();
+  for (const dataset::Recording& recording : *recordings_)
+    sections_.push_back(dataset::divideIntoSections(recording, options_.folds));
+  plan_ = compensation::planScheme(options_.scheme, classes_.classes);
+  sessions_ = findSessions(*recordings_, classes_);
+  zeros_.clear();
+  calibration_ = describe();
+  sumReadings();
+  findTaxelsWithoutModel(plan_, recordings_->front().name, calibration_);
+}
+
+// The choice of zeros needs a regressor. If there are zeros, the regressor is chosen again with them.
+void Training::sessionZero() {
+  regressors_ = choose(options_, calibration_, plan_, progress_);
+  zeros_ = chooseSessionZero({*recordings_, classes_, sections_, plan_, regressors_.whole, zeros_}, sessions_,
+                             options_, calibration_);
+  if (zeros_.empty()) return;
+  sumReadings();
+  plan_ = compensation::planScheme(options_.scheme, classes_.classes);
+  regressors_ = choose(options_, calibration_, plan_, progress_);
+}
+
+void Training::tables() {
+  remount_.emplace(*recordings_, classes_, sections_, zeros_);
+  const BudgetInput budget{BudgetScale(calibration_.trained.pressure),
+                           budgetCycles(*recordings_, classes_, sections_), !remount_->assessable()};
+  budget_scale_ = budget.scale;
+  scoring_.emplace(scans_, sections_, plan_, budget, options_.folds, statistics_->taxels);
+  settings::StepProgress training(progress_, "training the taxels", statistics_->taxels);
+  forEachTaxel([&](std::size_t taxel) {
+    train(taxel);
+    if (calibration_.no_model[taxel] == 0) remount_->measure(plan_, taxel, regressors_.whole, calibration_);
+    training.partDone();
+  });
+}
+
+// The deviation grows by the error on another mount.
+void Training::remount() {
+  remounted_ = remount_->apply(calibration_);
+}
+
+void Training::curvatureRule() {
+  unseen_ = learnRule(plan_, options_.threads, calibration_);
+}
+
+void Training::scores() {
+  if (!options_.scores) return;
+  const SessionScore session = calibration_.scores.session;
+  calibration_.scores = scoring_->summarise(classes_.classes);
+  calibration_.scores.session = session;
+  calibration_.scores.unseen = unseen_;
+  calibration_.scores.remount = remounted_;
+  calibration_.budget.intervals = remount_->assessable() ? intervalsOfMounts() : scoring_->intervals();
+}
+
+HistoryProblem Training::history() const {
+  return {*recordings_,
+          classes_,
+          sections_,
+          plan_,
+          regressors_.whole,
+          zeros_,
+          calibration_.session_zero.expected() ? &sessions_ : nullptr};
+}
+
+void Training::memory() {
+  const settings::StepProgress memory(progress_, "history and temperature", 1);
+  trainHistory(history(), options_, calibration_);
+}
+
+// If the answer depends on the temperature, the tables and the memory are trained again, with the pressures
+// as they were at T_0.
+void Training::temperature() {
+  const TemperatureModel model = chooseTemperature(history(), options_, calibration_);
+  if (!model.present()) return;
+  const auto scores = calibration_.scores.temperature;
+  recorded_ = calibration_.trained;
+  at_reference_ = atReference(*recordings_, model);
+  recordings_ = &at_reference_;
+  for (const Stage stage : kTables) (this->*stage)();
+  calibration_.temperature = model;
+  calibration_.scores.temperature = scores;
+}
+
+void Training::shape() {
+  trainShape(*recordings_, sessions_, options_.threads, calibration_);
+}
+
+void Training::budget() {
+  if (recorded_) calibration_.trained = *recorded_;
+  if (!options_.scores) return;
+  ErrorIntervals intervals = std::move(calibration_.budget.intervals);
+  calibration_.budget = errorBudget(*recordings_, options_, *budget_scale_, scoring_->budget(), calibration_);
+  calibration_.budget.lines.push_back(
+      newMountLine(calibration_, remount_->assessable() ? remount_->newMount() : NewMountErrors()));
+  calibration_.budget.intervals = std::move(intervals);
+}
+
 Calibration Training::describe() {
-  const std::vector<dataset::Recording>& recordings = problem_.recordings;
+  const std::vector<dataset::Recording>& recordings = *recordings_;
   const dataset::Recording& first = recordings.front();
   const std::size_t taxels = first.layout.size.taxels();
   std::vector<bool> trained(classes_.classes.size(), false);
   Calibration calibration;
-  calibration.bandwidth_chosen = choosesBandwidth(problem_.options);
-  calibration.folds = problem_.options.folds;
+  calibration.bandwidth_chosen = choosesBandwidth(options_);
+  calibration.folds = options_.folds;
   calibration.sensor = identityOf(recordings);
   calibration.layout = first.layout;
   calibration.masked = unionOfMasks(recordings, taxels);
@@ -180,7 +251,7 @@ Calibration Training::describe() {
   }
   calibration.trained = findTrainedRanges(recordings, classes_, trained);
   calibration.coverage = dataset::measureCoverage(recordings, classes_, sections_);
-  calibration.provenance = provenanceOf(problem_.recordings, problem_.options);
+  calibration.provenance = provenanceOf(*recordings_, options_);
   statistics_ = emptyStatistics();
   calibration.statistics = statistics_;
   prepareTables(plan_, calibration);
@@ -190,16 +261,21 @@ Calibration Training::describe() {
 
 std::shared_ptr<compensation::TrainingStatistics> Training::emptyStatistics() const {
   auto statistics = std::make_shared<compensation::TrainingStatistics>();
-  statistics->full_scale = problem_.recordings.front().full_scale;
-  statistics->taxels = problem_.recordings.front().layout.size.taxels();
-  statistics->sections = problem_.options.folds;
+  statistics->full_scale = recordings_->front().full_scale;
+  statistics->taxels = recordings_->front().layout.size.taxels();
+  statistics->sections = options_.folds;
   statistics->classes = classes_.classes;
-  statistics->cells.resize(statistics->taxels * classes_.classes.size() * problem_.options.folds);
-  for (const dataset::Recording& recording : problem_.recordings) {
+  statistics->cells.resize(statistics->taxels * classes_.classes.size() * options_.folds);
+  for (const dataset::Recording& recording : *recordings_) {
     const std::vector<dataset::RecordedCondition> own = dataset::conditionsOf(recording);
     statistics->conditions.insert(statistics->conditions.end(), own.begin(), own.end());
   }
   return statistics;
+}
+
+void Training::sumReadings() {
+  scans_ = gatherScans(*recordings_, classes_, sections_, zeros_);
+  forEachTaxel([&](std::size_t taxel) { sum(taxel); });
 }
 
 void Training::sum(std::size_t taxel) {
@@ -209,63 +285,33 @@ void Training::sum(std::size_t taxel) {
             statistics_->cells.begin() + static_cast<std::ptrdiff_t>(taxel * cells.size()));
 }
 
-// The choice of zeros needs a regressor. If there are zeros, the regressor is chosen again with them.
-compensation::FoldRegressors Training::chooseWithZeros(Calibration& calibration,
-                                                       const CalibrationProgress& progress) {
-  const compensation::FoldRegressors regressors = choose(problem_.options, calibration, plan_, progress);
-  zeros_ = chooseSessionZero({problem_.recordings, classes_, sections_, plan_, regressors.whole, zeros_},
-                             sessions_, problem_.options, calibration);
-  if (zeros_.empty()) return regressors;
-  scans_ = gatherScans(problem_.recordings, classes_, sections_, zeros_);
-  matrix::forEachTaxel(statistics_->taxels, problem_.options.threads, [&](std::size_t taxel) { sum(taxel); });
-  plan_ = compensation::planScheme(problem_.options.scheme, classes_.classes);
-  return choose(problem_.options, calibration, plan_, progress);
-}
-
-void Training::train(std::size_t taxel, const compensation::FoldRegressors& regressors,
-                     Calibration& calibration, HeldOutScoring& scoring) const {
-  if (calibration.no_model[taxel] != 0) {
-    fillTables(plan_, taxel, {}, calibration);
-    scoring.leaveOut(taxel);
+void Training::train(std::size_t taxel) {
+  if (calibration_.no_model[taxel] != 0) {
+    fillTables(plan_, taxel, {}, calibration_);
+    scoring_->leaveOut(taxel);
     return;
   }
-  compensation::SectionedReadings readings = readingsOf(*calibration.statistics, taxel);
-  if (!regression::makeRegressor(regressors.whole)->mergeable()) {
+  compensation::SectionedReadings readings = readingsOf(*calibration_.statistics, taxel);
+  if (!regression::makeRegressor(regressors_.whole)->mergeable()) {
     readings.samples = samplesOfTaxel(scans_, readings.sums.front().size(), readings.full_scale, taxel);
   }
-  const bool scores = problem_.options.scores;
   const auto models = compensation::crossValidateScheme(
-      plan_, taxel, readings, regressors,
-      scores ? regression::HeldOutDeviation::kYes : regression::HeldOutDeviation::kNo);
-  if (scores) scoring.scoreTaxel(taxel, models);
-  fillTables(plan_, taxel, models, calibration);
+      plan_, taxel, readings, regressors_,
+      options_.scores ? regression::HeldOutDeviation::kYes : regression::HeldOutDeviation::kNo);
+  if (options_.scores) scoring_->scoreTaxel(taxel, models);
+  fillTables(plan_, taxel, models, calibration_);
 }
 
 // The intervals of new mounts. The models without a mount are trained a second time, because the deviation to
 // compare with is known only after the first.
-ErrorIntervals Training::intervalsOf(RemountErrors& remount, const regression::RegressorOptions& regressor,
-                                     const Calibration& calibration) const {
-  IntervalTally intervals(IntervalUnit::kMounts, remount.units(), statistics_->taxels,
-                          calibration.trained.pressure.high);
-  matrix::forEachTaxel(statistics_->taxels, problem_.options.threads, [&](std::size_t taxel) {
-    if (calibration.no_model[taxel] == 0) remount.cover(plan_, taxel, regressor, calibration, intervals);
+ErrorIntervals Training::intervalsOfMounts() {
+  IntervalTally intervals(IntervalUnit::kMounts, remount_->units(), statistics_->taxels,
+                          calibration_.trained.pressure.high);
+  forEachTaxel([&](std::size_t taxel) {
+    if (calibration_.no_model[taxel] == 0)
+      remount_->cover(plan_, taxel, regressors_.whole, calibration_, intervals);
   });
   return intervals.summarise();
-}
-
-// Trains everything again for the temperature T_0 of the model that was chosen.
-Calibration trainAtReference(const CalibrationProblem& problem, const Calibration& chosen,
-                             const CalibrationProgress& progress) {
-  CalibrationProblem at_reference{atReference(problem.recordings, chosen.temperature), problem.options};
-  at_reference.options.temperature = false;
-  Training training(at_reference);
-  Calibration calibration = training.run(progress);
-  training.addShape(calibration);
-  calibration.temperature = chosen.temperature;
-  calibration.scores.temperature = chosen.scores.temperature;
-  calibration.trained = chosen.trained;  // of the recorded pressures
-  training.addBudget(calibration);
-  return calibration;
 }
 
 }  // namespace
@@ -278,12 +324,7 @@ void TrainedInterval::include(double value) {
 
 Calibration calibrate(const CalibrationProblem& problem, const CalibrationProgress& progress) {
   validate(problem);
-  Training training(problem);
-  Calibration calibration = training.run(progress);
-  if (calibration.temperature.present()) return trainAtReference(problem, calibration, progress);
-  training.addShape(calibration);
-  training.addBudget(calibration);
-  return calibration;
+  return Training(problem, progress).run();
 }
 
 }  // namespace fsr::calibration

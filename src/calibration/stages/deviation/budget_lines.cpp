@@ -76,9 +76,9 @@ double overTables(const Calibration& calibration, Of of) {
 
 class Lines {
  public:
-  Lines(const CalibrationProblem& problem, const BudgetScale& scale, const BudgetSums& sums,
-        const Calibration& calibration)
-      : problem_(problem), scale_(scale), sums_(sums), calibration_(calibration) {}
+  Lines(const std::vector<dataset::Recording>& recordings, const CalibrationOptions& options,
+        const BudgetScale& scale, const BudgetSums& sums, const Calibration& calibration)
+      : recordings_(recordings), options_(options), scale_(scale), sums_(sums), calibration_(calibration) {}
 
   std::vector<BudgetLine> all() const {
     return {reference(),
@@ -88,7 +88,7 @@ class Lines {
             directions(),
             hold(),
             mount(),
-            conditioningLine(sums_, dataset::findConditioning(problem_.recordings)),
+            conditioningLine(sums_, dataset::findConditioning(recordings_)),
             rest(),
             temperature(),
             curvature(),
@@ -126,7 +126,8 @@ class Lines {
   double mountShare(std::size_t p) const { return ratio(sums_[p].mount_shares, sums_[p].surfaces); }
   double slopeOfCurvature(std::size_t point) const;
 
-  const CalibrationProblem& problem_;
+  const std::vector<dataset::Recording>& recordings_;
+  const CalibrationOptions& options_;
   const BudgetScale& scale_;
   const BudgetSums& sums_;
   const Calibration& calibration_;
@@ -134,7 +135,7 @@ class Lines {
 
 BudgetLine Lines::reference() const {
   const std::string name = "transducer of the chamber";
-  const double declared = problem_.options.reference_deviation;
+  const double declared = options_.reference_deviation;
   if (std::isnan(declared)) {
     return notAssessed(name,
                        "its scatter is in the held-out error, its constant error in no reading; "
@@ -277,7 +278,7 @@ BudgetLine Lines::curvature() const {
   change += " kPa";
   double squares = 0, number = 0;
   bool each = true;
-  for (const dataset::Recording& recording : problem_.recordings) {
+  for (const dataset::Recording& recording : recordings_) {
     for (const matrix::Surface& surface : recording.conditions) {
       each = each && !surface.deviation.empty();
       for (std::size_t taxel = 0; taxel < recording.layout.size.taxels(); ++taxel) {
@@ -326,12 +327,12 @@ BudgetLine Lines::history() const {
 
 }  // namespace
 
-ErrorBudget errorBudget(const CalibrationProblem& problem, const BudgetScale& scale, const BudgetSums& sums,
-                        const Calibration& calibration) {
+ErrorBudget errorBudget(const std::vector<dataset::Recording>& recordings, const CalibrationOptions& options,
+                        const BudgetScale& scale, const BudgetSums& sums, const Calibration& calibration) {
   ErrorBudget budget;
   budget.pressure = scale.pressure;
   budget.held_out = atEach([&](std::size_t p) { return std::sqrt(ratio(sums[p].held_out, sums[p].cells)); });
-  budget.lines = Lines(problem, scale, sums, calibration).all();
+  budget.lines = Lines(recordings, options, scale, sums, calibration).all();
   budget.combined = atEach([&](std::size_t p) {
     double square = budget.held_out[p] * budget.held_out[p];
     for (const BudgetLine& line : budget.lines) square += line.added[p] * line.added[p];

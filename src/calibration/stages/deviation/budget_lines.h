@@ -6,7 +6,7 @@
 namespace fsr::calibration {
 
 /// The budget of a trained calibration, without intervals. Of the recordings only what they state is used.
-ErrorBudget errorBudget(const CalibrationProblem& problem, const BudgetScale& scale, const BudgetSums& sums,
-                        const Calibration& calibration);
+ErrorBudget errorBudget(const std::vector<dataset::Recording>& recordings, const CalibrationOptions& options,
+                        const BudgetScale& scale, const BudgetSums& sums, const Calibration& calibration);
 
 }  // namespace fsr::calibration
