@@ -23,7 +23,7 @@
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "ros/bags/bag_writer.h"
 #include "ros/bags/resource_path.h"
-#include "ros/tools/train_tool.h"
+#include "ros/tools/tools.h"
 #include "support/synthetic_recording.h"
 
 namespace {

@@ -14,7 +14,7 @@
 #include "ros/bags/resource_path.h"
 #include "ros/bags/surface_folder.h"
 #include "ros/live/serve.h"
-#include "ros/messages/image_message.h"
+#include "ros/messages/view_messages.h"
 #include "ros/messages/surface_message.h"
 #include "session/coverage.h"
 #include "session/plan_file.h"

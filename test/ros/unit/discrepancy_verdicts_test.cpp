@@ -11,7 +11,7 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "report/verdict_file.h"
 #include "ros/bags/bag_writer.h"
-#include "ros/tools/discrepancy_tool.h"
+#include "ros/tools/tools.h"
 #include "settings/replace_file.h"
 #include "simulation/settings_text.h"
 #include "statistics/random_stream.h"
