@@ -5,6 +5,7 @@
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -12,12 +13,80 @@
 #include <vector>
 
 #include "emulator/board.h"
-#include "emulator/board_link.h"
 #include "emulator/chamber.h"
+#include "emulator/line_damage.h"
 #include "emulator/operator.h"
-#include "emulator/rig_schedule.h"
+#include "emulator/pseudo_terminal.h"
 
 namespace fsr::emulator {
+
+/// Numbers of packets by outcome.
+struct LinkCounts {
+  std::uint64_t sent = 0;  ///< packets that reached the port, damaged or not
+  std::uint64_t unheard =
+      0;  ///< packets lost because the port was not open or unplugged, or the line was silent
+  std::uint64_t dropped = 0;  ///< packets lost because the reader was too slow
+  LineDamageCounts damage;
+};
+
+/// The line from the board's pin to the computer's port, with its faults.
+class BoardLink {
+ public:
+  /// `link`: path of a symbolic link to the port, empty = none. `baud`: rate of the board's UART [1/s], 0 =
+  /// native USB. Throws InputError.
+  BoardLink(const std::string& link, std::uint32_t baud, std::uint64_t seed);
+
+  /// Sets the damage from `time` [s rig time] on. Throws InputError.
+  void setDamage(const LineDamage& damage, double time);
+
+  /// Sends a packet and changes it where it is damaged. `patient`: wait for a slow reader, up to half a
+  /// second, instead of dropping the packet at once. Returns the time waited.
+  std::chrono::steady_clock::duration send(std::vector<std::uint8_t>& packet, double time, bool patient);
+
+  /// Path to open; empty while a port without a link is unplugged.
+  std::string port() const { return port_ ? port_->path() : link_; }
+  bool hasReader() { return port_ && port_->hasReader(); }
+  LinkCounts counts() const;
+
+ private:
+  void plugIn();
+  void count(PseudoTerminal::Outcome outcome);
+
+  std::string link_;
+  std::uint32_t baud_;
+  bool reader_keeps_up_ = true;  // otherwise it is not waited for
+  LossyLine line_;
+  LineDamage damage_;
+  double silent_until_ = -std::numeric_limits<double>::infinity();  // [s rig time]
+  std::unique_ptr<PseudoTerminal> port_;                            // none = unplugged
+  LinkCounts counts_;
+};
+
+/// Rig time [s]: wall time of the monotonic clock since the start, times a scale. This is an absolute
+/// schedule: it does not drift where a thread wakes late.
+class RigSchedule {
+ public:
+  using WallClock = std::chrono::steady_clock;
+
+  /// Rig time 0 is now. `scale`: seconds of rig time per second.
+  explicit RigSchedule(double scale) : scale_(scale), origin_(WallClock::now()) {}
+
+  double now() const { return std::chrono::duration<double>(WallClock::now() - origin_).count() * scale_; }
+
+  WallClock::time_point wallTime(double rig_time) const {
+    const std::chrono::duration<double> since_origin(rig_time / scale_);
+    return origin_ + std::chrono::duration_cast<WallClock::duration>(since_origin);
+  }
+
+  bool realTime() const { return scale_ == 1; }
+
+  /// Stops rig time for this duration.
+  void hold(WallClock::duration duration) { origin_ += duration; }
+
+ private:
+  double scale_;
+  WallClock::time_point origin_;
+};
 
 /// State of the chamber.
 struct RigStatus {

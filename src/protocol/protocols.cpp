@@ -2,6 +2,7 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "protocol/text_decoder.h"
 #include "protocol/wire_decoder.h"
+#include "settings/joined.h"
 
 namespace fsr::protocol {
 namespace {
@@ -25,12 +26,12 @@ const std::vector<Protocol>& protocols() {
 }
 
 const Protocol& protocolNamed(const std::string& name) {
-  std::string names;
   for (const Protocol& protocol : protocols()) {
     if (protocol.name == name) return protocol;
-    names += (names.empty() ? "" : ", ") + protocol.name;
   }
-  throw settings::InputError("there is no protocol " + name + ": set one of " + names);
+  throw settings::InputError(
+      "there is no protocol " + name + ": set one of " +
+      settings::joinedTexts(protocols(), [](const Protocol& protocol) { return protocol.name; }));
 }
 
 }  // namespace fsr::protocol

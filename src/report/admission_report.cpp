@@ -12,7 +12,7 @@ namespace fsr::report {
 namespace {
 
 std::string percent(double share, int digits = 1) {
-  return std::isnan(share) ? "not known" : settings::cellText(100 * share, digits) + " %";
+  return std::isnan(share) ? "not known" : settings::fixedText(100 * share, digits) + " %";
 }
 
 // "(row, column)" of the first eight taxels.
@@ -36,11 +36,11 @@ std::string recordingsTable(const discrepancy::Admission& admission) {
   TextTable table(
       {"bag", "scans", "time [s]", "surfaces", "lost", "gaps", "lag [s]", "saturated %", "dead", "stuck"});
   for (const discrepancy::AdmittedRecording& row : admission.recordings)
-    table.row({row.name, std::to_string(row.scans), settings::cellText(row.seconds, 1),
+    table.row({row.name, std::to_string(row.scans), settings::fixedText(row.seconds, 1),
                std::to_string(row.surfaces), std::to_string(row.losses.lost_scans),
                std::to_string(row.losses.sequence_gaps),
-               row.lag ? settings::cellText(row.lag->seconds, 2) : "-",
-               settings::cellText(100 * row.health.saturated, 2), std::to_string(row.health.dead.size()),
+               row.lag ? settings::fixedText(row.lag->seconds, 2) : "-",
+               settings::fixedText(100 * row.health.saturated, 2), std::to_string(row.health.dead.size()),
                std::to_string(row.health.stuck.size())});
   return table.text();
 }
@@ -57,7 +57,7 @@ std::string healthText(const discrepancy::AdmittedRecording& row, const matrix::
         std::to_string(health.saturated_taxels) + " taxels reach full scale" +
         (std::isnan(health.saturated_from)
              ? ""
-             : ", at " + settings::cellText(health.saturated_from / 1000, 0) + " kPa or more"));
+             : ", at " + settings::fixedText(health.saturated_from / 1000, 0) + " kPa or more"));
   return linesOf(sentences, row.name + ": ");
 }
 
@@ -66,7 +66,7 @@ std::string faultText(const discrepancy::Fault& fault, const matrix::Layout& lay
   const std::string where =
       line ? " " + std::to_string(fault.line) : " (row, column): " + places(fault.taxels, layout);
   return fault.id + where + ", " + percent(fault.share, 2) + " of the scans, longest " +
-         settings::cellText(fault.longest, 1) + " s";
+         settings::fixedText(fault.longest, 1) + " s";
 }
 
 // ", because A; and 2 more". The lines above list all reasons.
@@ -85,7 +85,7 @@ std::string verdict(const discrepancy::Admission& admission, const std::vector<s
 
 std::string restText(const std::string& name, const std::optional<check::SocketRest>& rest) {
   return "Rest " + name + ": " +
-         (rest ? settings::cellText(rest->from, 1) + " to " + settings::cellText(rest->to, 1) + " s\n"
+         (rest ? settings::fixedText(rest->from, 1) + " to " + settings::fixedText(rest->to, 1) + " s\n"
                : "none recorded\n");
 }
 
@@ -94,7 +94,7 @@ std::string changeOfRest(const check::SocketCheck& check) {
   const std::string pressure =
       std::isnan(check.median_pressure_change)
           ? ""
-          : " (" + settings::cellText(check.median_pressure_change / 1000, 1) + " kPa)";
+          : " (" + settings::fixedText(check.median_pressure_change / 1000, 1) + " kPa)";
   return "Change of the readings at rest: median " + percent(check.median_change, 2) + " of full scale" +
          pressure + ", largest " + percent(check.change[check.worst], 2) + " at (row, column) " +
          places({check.worst}, check.layout) + "; " + std::to_string(check.changed) +
@@ -118,7 +118,7 @@ std::string admissionText(const discrepancy::Admission& admission) {
 
 std::string socketText(const check::SocketCheck& check) {
   const std::string longest = check.longest.seconds > 0
-                                  ? ", from second " + settings::cellText(check.longest.from, 0) +
+                                  ? ", from second " + settings::fixedText(check.longest.from, 0) +
                                         ", at (row, column) " + places({check.longest.taxel}, check.layout)
                                   : "";
   const auto listed = [&](const std::vector<std::size_t>& taxels) {
@@ -129,7 +129,7 @@ std::string socketText(const check::SocketCheck& check) {
          " of the readings\nOutside the readings of training: " + percent(check.beyond, 2) +
          "; outside its curvatures: " + percent(check.bent_beyond, 2) +
          (std::isnan(check.beyond) ? " (give --calibration)" : "") +
-         "\nLongest static load: " + settings::cellText(check.longest.seconds, 0) + " s" + longest +
+         "\nLongest static load: " + settings::fixedText(check.longest.seconds, 0) + " s" + longest +
          "\nDead (row, column): " + listed(check.dead) + "; stuck: " + listed(check.stuck) + '\n' +
          linesOf(check.reasons, "Problem: ") +
          (check.reasons.empty() ? "Readings are usable" : "Look again" + because(check.reasons)) +

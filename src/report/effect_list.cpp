@@ -1,7 +1,10 @@
 #include "report/effect_list.h"
 
+#include <nlohmann/json.hpp>
+
 #include <cmath>
 
+#include "settings/joined.h"
 #include "settings/yaml_text.h"
 #include "simulation/effects/effect_library.h"
 
@@ -11,9 +14,7 @@ namespace {
 
 template <typename Item>
 std::string names(const std::vector<Item>& items) {
-  std::string list;
-  for (const Item& item : items) list += (list.empty() ? "" : ", ") + simulation::name(item);
-  return list;
+  return settings::joinedTexts(items, [](const Item& item) { return simulation::name(item); });
 }
 
 std::string line(const std::string& title, const std::string& text) {
@@ -37,14 +38,12 @@ std::string parameterText(const simulation::EffectParameter& parameter) {
 }  // namespace
 
 std::string effectText(const simulation::EffectInfo& info) {
-  std::string collinear;
-  for (const std::string& id : info.collinear) collinear += (collinear.empty() ? "" : ", ") + id;
   std::string text =
       info.id + ": " + info.summary + "\n" + line("equation", info.equation) + line("source", info.source) +
       line("kind", simulation::name(info.kind) + ", by " + simulation::name(info.level) + ", stage " +
                        simulation::name(info.stage) + ", sign " + simulation::name(info.sign)) +
       line("depends on", names(info.depends_on)) + line("needs", names(info.needs)) +
-      line("looks like", collinear);
+      line("looks like", settings::joined(info.collinear));
   if (info.experiment != simulation::Experiment::kNone)
     text += line("experiment", simulation::name(info.experiment));
   if (!info.parameters.empty()) text += "    parameters\n";
@@ -67,6 +66,50 @@ std::string effectListText() {
   }
   return "Effects that can be simulated, in the order in which they act:\n\n" + simulated +
          "Effects that a gas chamber cannot show, with the experiment that would show them:\n\n" + listed;
+}
+
+namespace {
+
+using SortedJson = nlohmann::json;
+
+constexpr double kPerCent = 100;
+constexpr double kPerKilopascal = 1e-3;
+
+SortedJson scaled(const std::vector<double>& values, double factor) {
+  SortedJson list = SortedJson::array();
+  for (const double value : values) list.push_back(factor * value);
+  return list;
+}
+
+SortedJson lines(const std::vector<simulation::PortraitLine>& all, double x_factor, double y_factor) {
+  SortedJson list = SortedJson::array();
+  for (const simulation::PortraitLine& line : all) {
+    list.push_back({{"label", line.label}, {"x", scaled(line.x, x_factor)}, {"y", scaled(line.y, y_factor)}});
+  }
+  return list;
+}
+
+SortedJson map(const std::vector<double>& values, matrix::MatrixSize size) {
+  SortedJson rows = SortedJson::array();
+  for (std::size_t row = 0; row < size.rows; ++row) {
+    const auto first = values.begin() + static_cast<std::ptrdiff_t>(row * size.columns);
+    rows.push_back(scaled({first, first + size.columns}, kPerCent));
+  }
+  return rows;
+}
+
+}  // namespace
+
+std::string portraitJson(const simulation::Portrait& portrait) {
+  const SortedJson result = {{"title", portrait.title},
+                             {"response", lines(portrait.response, kPerKilopascal, kPerCent)},
+                             {"loop", lines(portrait.loop, kPerKilopascal, kPerCent)},
+                             {"hold", lines(portrait.hold, 1, kPerCent)},
+                             {"hold_pressure", lines({portrait.hold_pressure}, 1, kPerKilopascal)},
+                             {"disc", map(portrait.disc, portrait.size)},
+                             {"disc_change", map(portrait.disc_change, portrait.size)},
+                             {"gas_change", map(portrait.gas_change, portrait.size)}};
+  return result.dump() + "\n";
 }
 
 }  // namespace fsr::report

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "fsr_pressure_map/simulation/effect_info.h"
+#include "simulation/portrait.h"
 
 namespace fsr::report {
 
@@ -12,5 +13,8 @@ std::string effectListText();
 
 /// The same for one effect.
 std::string effectText(const simulation::EffectInfo& info);
+
+/// A portrait of a simulation as JSON for the figures: pressures in kPa, readings in per cent of full scale.
+std::string portraitJson(const simulation::Portrait& portrait);
 
 }  // namespace fsr::report

@@ -17,9 +17,9 @@ using discrepancy::Verdict;
 constexpr double kKilopascal = 1e3;  // [Pa]
 constexpr double kPercent = 100;
 
-// "1.3 kPa", of three digits at most.
+// "1.3 kPa", of two digits.
 std::string pressureText(double pressure) {
-  return settings::roundedText(pressure / kKilopascal, 2) + " kPa";
+  return settings::roundedKilopascals(pressure, 2);
 }
 
 std::string roundedPercent(double share, int digits = 2) {

@@ -17,7 +17,7 @@ namespace {
 using Row = std::vector<std::string>;
 
 std::string kilopascals(const Json& pressure, int decimals, double factor = 1) {
-  return pressure.is_null() ? "-" : settings::cellText(factor * pressure.get<double>() / 1e3, decimals);
+  return pressure.is_null() ? "-" : settings::fixedText(factor * pressure.get<double>() / 1e3, decimals);
 }
 
 std::string lastLine(const std::string& text) {

@@ -5,11 +5,11 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <boost/algorithm/string/predicate.hpp>
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <map>
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "session/plan_file.h"
@@ -21,6 +21,7 @@
 namespace fsr::session {
 
 namespace fs = std::filesystem;
+using boost::ends_with;
 
 namespace {
 
@@ -37,8 +38,17 @@ std::string plainName(std::string name) {
   return name;
 }
 
-bool endsWith(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+// Names of the files in a folder for which `wanted` holds, sorted.
+template <typename Wanted>
+std::vector<std::string> filesIn(const std::string& folder, Wanted wanted) {
+  std::vector<std::string> files;
+  std::error_code failed;
+  for (const auto& entry : fs::directory_iterator(folder, failed)) {
+    const std::string file = entry.path().filename().string();
+    if (wanted(file)) files.push_back(file);
+  }
+  std::sort(files.begin(), files.end());
+  return files;
 }
 
 MovedBag moveInto(const fs::path& folder, const fs::path& bag) {
@@ -55,7 +65,7 @@ MovedBag moveInto(const fs::path& folder, const fs::path& bag) {
 unsigned long partOf(const std::string& file, const std::string& stem) {
   if (file == stem + kBag) return 1;
   const std::string begin = stem + kPart;
-  if (file.compare(0, begin.size(), begin) != 0 || !endsWith(file, kBag)) return 0;
+  if (file.compare(0, begin.size(), begin) != 0 || !ends_with(file, kBag)) return 0;
   const std::string number = file.substr(begin.size(), file.size() - begin.size() - (sizeof kBag - 1));
   constexpr std::size_t kMostDigits = 9;
   const bool valid = !number.empty() && number.size() <= kMostDigits &&
@@ -98,40 +108,24 @@ std::string freeBagName(const std::string& folder, const std::string& stem) {
 }
 
 std::vector<std::string> bagsOfMount(const std::string& folder, const std::string& stem) {
-  std::map<unsigned long, std::string> parts;
-  std::error_code failed;
-  for (const auto& entry : fs::directory_iterator(folder, failed)) {
-    const std::string file = entry.path().filename().string();
-    const unsigned long part = partOf(file, stem);
-    if (part > 0) parts[part] = file;
-  }
-  std::vector<std::string> files;
-  for (const auto& [part, file] : parts) files.push_back(file);
+  std::vector<std::string> files = filesIn(folder, [&](const auto& file) { return partOf(file, stem) > 0; });
+  std::sort(files.begin(), files.end(),
+            [&](const std::string& a, const std::string& b) { return partOf(a, stem) < partOf(b, stem); });
   return files;
 }
 
 std::vector<std::string> openBags(const std::string& folder, const std::string& plan) {
-  std::vector<std::string> files;
-  std::error_code failed;
-  for (const auto& entry : fs::directory_iterator(folder, failed)) {
-    const std::string file = entry.path().filename().string();
-    if (file.rfind(plainName(plan) + "_", 0) == 0 && endsWith(file, std::string(kBag) + kOpen))
-      files.push_back(file);
-  }
-  std::sort(files.begin(), files.end());
-  return files;
+  return filesIn(folder, [&](const std::string& file) {
+    return file.rfind(plainName(plan) + "_", 0) == 0 && ends_with(file, std::string(kBag) + kOpen);
+  });
 }
 
 std::vector<MovedBag> setMountAside(const std::string& folder, const std::string& stem) {
-  std::vector<std::string> files;
-  std::error_code failed;
-  for (const auto& entry : fs::directory_iterator(folder, failed)) {
-    const std::string file = entry.path().filename().string();
+  const auto files = filesIn(folder, [&](const std::string& file) {
     const std::string closed =
-        endsWith(file, kOpen) ? file.substr(0, file.size() - (sizeof kOpen - 1)) : file;
-    if (partOf(closed, stem) > 0) files.push_back(file);
-  }
-  std::sort(files.begin(), files.end());
+        ends_with(file, kOpen) ? file.substr(0, file.size() - (sizeof kOpen - 1)) : file;
+    return partOf(closed, stem) > 0;
+  });
   std::vector<MovedBag> moved;
   for (const std::string& file : files)
     moved.push_back(moveInto(fs::path(folder) / kSetAside, fs::path(folder) / file));
@@ -140,12 +134,9 @@ std::vector<MovedBag> setMountAside(const std::string& folder, const std::string
 
 std::string stateFileIn(const std::string& folder, const std::string& plan) {
   if (!fs::is_directory(folder)) throw settings::InputError(folder + ": there is no such folder");
-  std::vector<std::string> found;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    const std::string file = entry.path().filename().string();
-    if (plan.empty() ? endsWith(file, kState) : file == stateFileName(plan)) found.push_back(file);
-  }
-  std::sort(found.begin(), found.end());
+  const auto found = filesIn(folder, [&](const std::string& file) {
+    return plan.empty() ? ends_with(file, kState) : file == stateFileName(plan);
+  });
   if (found.empty()) {
     throw settings::InputError(folder + ": has no " +
                                (plan.empty() ? "*" + std::string(kState) : stateFileName(plan)) +

@@ -87,43 +87,7 @@ std::unique_ptr<StepWatch> watchOf(const SessionStep& step, double begin, bool a
 /// Whether a new attempt can begin after one was rejected: the pressure is down again.
 bool canBegin(const SessionStep& step, double pressure);
 
-// ---- for the watches -------------------------------------------------------------------------------
-
 std::string kPaText(double pressure);
-std::string rateText(double rate);
 std::string secondsText(double time);
-/// "" or what is wrong with a rate, with its reason.
-Hint judgeRate(const SessionStep& step, double rate, bool filling);
-
-std::unique_ptr<StepWatch> excursionWatch(const SessionStep& step, bool after_loop);
-std::unique_ptr<StepWatch> holdWatch(const SessionStep& step);
-std::unique_ptr<StepWatch> restWatch(const SessionStep& step, double begin);
-
-/// Times at which a rise from `low` to `peak`, and the fall behind it, cross 10 % and 90 % of the way,
-/// interpolated between readings. The paces are the mean ones between these two levels.
-class LevelCrossings {
- public:
-  LevelCrossings(double low, double peak);
-
-  void take(const Reading& reading);
-
-  double lowLevel() const { return low_level_; }    ///< 10 % [Pa]
-  double highLevel() const { return high_level_; }  ///< 90 % [Pa]
-  /// Pace of the rise, once it has crossed 90 % [Pa/s].
-  std::optional<double> fillRate() const;
-  /// Pace of the fall, once it has crossed 10 % [Pa/s].
-  std::optional<double> ventRate() const;
-  /// Time from crossing 90 % upwards to crossing it downwards, or to the last reading [s].
-  double timeAbove() const;
-  /// "The chamber stays at ...", where the pressure has not risen for a while below 90 %.
-  Hint stalledHint(double peak) const;
-
- private:
-  const double low_level_, high_level_;
-  std::optional<Reading> last_;
-  std::optional<double> up_low_, up_high_, down_high_, down_low_;  // [s]
-  double highest_ = 0;  // when it had risen by 1 % of the way last: pressure [Pa]
-  double risen_ = 0;    // and time [s]
-};
 
 }  // namespace fsr::session

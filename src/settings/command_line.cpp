@@ -13,6 +13,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "settings/foreign_error.h"
+#include "settings/joined.h"
 #include "settings/printable.h"
 #include "settings/replace_file.h"
 
@@ -32,7 +33,7 @@ double parsed(const std::string& text) {
   return stream && stream.peek() == std::istringstream::traits_type::eof() ? value : NAN;
 }
 
-[[noreturn]] void refuse(const std::string& name, const std::string& value, const std::string& right) {
+[[noreturn]] void refuseValue(const std::string& name, const std::string& value, const std::string& right) {
   throw InputError("--" + name + " is \"" + value + "\", but must be " + right);
 }
 
@@ -96,10 +97,11 @@ void CommandLine::requireWritable(const std::string& path, const std::string& ki
   requireReplaceable(path, kind);
 }
 
-bool CommandLine::parse(int argc, const char* const* argv) {
+bool CommandLine::parse(int argc, const char* const* argv, std::ostream& out) {
   try {
     app_->parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
+    out << help();
     return false;
   } catch (const CLI::ParseError& error) {
     throw InputError(std::string(error.what()) + "; see " + tool_ + " --help");
@@ -134,6 +136,11 @@ bool CommandLine::has(const std::string& name) const {
   return app_->count("--" + name) != 0;
 }
 
+void CommandLine::refuse(const std::vector<std::string>& names, const std::string& why) const {
+  for (const std::string& name : names)
+    if (has(name)) throw InputError("--" + name + " " + why);
+}
+
 std::string CommandLine::text(const std::string& name, const std::string& fallback) const {
   return has(name) ? app_->get_option("--" + name)->results().front() : fallback;
 }
@@ -144,10 +151,26 @@ std::string CommandLine::requiredText(const std::string& name) const {
                    tool_ + " --help");
 }
 
+std::string CommandLine::choice(const std::string& name, const std::vector<std::string>& choices,
+                                const std::string& fallback) const {
+  const std::string value = text(name, fallback);
+  if (std::count(choices.begin(), choices.end(), value) == 0)
+    refuseValue(name, value, "one of " + joined(choices));
+  return value;
+}
+
+std::vector<std::string> CommandLine::list(const std::string& name, const std::string& fallback) const {
+  std::vector<std::string> words;
+  std::istringstream list(text(name, fallback));
+  for (std::string word; std::getline(list, word, ',');)
+    if (!word.empty()) words.push_back(word);
+  return words;
+}
+
 double CommandLine::number(const std::string& name, double fallback, const Range& range) const {
   if (!has(name)) return fallback;
   const double value = parsed(text(name, ""));
-  if (!range.contains(value)) refuse(name, text(name, ""), range.text());
+  if (!range.contains(value)) refuseValue(name, text(name, ""), range.text());
   return value;
 }
 
@@ -155,7 +178,7 @@ std::int64_t CommandLine::integer(const std::string& name, std::int64_t fallback
   if (!has(name)) return fallback;
   const double value = parsed(text(name, ""));
   if (!range.contains(value) || value != std::floor(value)) {
-    refuse(name, text(name, ""), "a whole number, " + range.text());
+    refuseValue(name, text(name, ""), "a whole number, " + range.text());
   }
   return static_cast<std::int64_t>(value);
 }

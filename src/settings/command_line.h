@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -32,8 +33,8 @@ class CommandLine {
   /// An option that names a file or folder to write.
   CommandLine& output(const std::string& name, const std::string& placeholder, const std::string& help);
 
-  /// False where the user asked for help; then print `help()`.
-  bool parse(int argc, const char* const* argv);
+  /// False where the user asked for help, which is then printed to `out`.
+  bool parse(int argc, const char* const* argv, std::ostream& out);
   std::string help() const;
 
   const std::vector<std::string>& files() const { return files_; }
@@ -41,9 +42,16 @@ class CommandLine {
   /// or where requireReplaceable() refuses it for a file of this `kind`.
   void requireWritable(const std::string& path, const std::string& kind = "") const;
   bool has(const std::string& name) const;
+  /// Throws InputError "--NAME " + `why` for the first of these options that is given.
+  void refuse(const std::vector<std::string>& names, const std::string& why) const;
   std::string text(const std::string& name, const std::string& fallback) const;
   /// Throws InputError where the option is missing.
   std::string requiredText(const std::string& name) const;
+  /// One of `choices`.
+  std::string choice(const std::string& name, const std::vector<std::string>& choices,
+                     const std::string& fallback) const;
+  /// The words of "A,B,...", without empty ones.
+  std::vector<std::string> list(const std::string& name, const std::string& fallback = "") const;
   double number(const std::string& name, double fallback, const Range& range) const;
   std::int64_t integer(const std::string& name, std::int64_t fallback, const Range& range) const;
 

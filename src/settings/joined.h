@@ -5,11 +5,19 @@
 
 namespace fsr::settings {
 
-/// The items with `between` between them.
-inline std::string joined(const std::vector<std::string>& items, const std::string& between = ", ") {
+/// The texts `textOf(item)` of the items with `between` between them.
+template <typename Items, typename TextOf>
+std::string joinedTexts(const Items& items, TextOf textOf, const std::string& between = ", ") {
   std::string text;
-  for (const std::string& item : items) text += (text.empty() ? "" : between) + item;
+  for (const auto& item : items) text += (text.empty() ? "" : between) + std::string(textOf(item));
   return text;
+}
+
+/// The items with `between` between them.
+template <typename Items>
+std::string joined(const Items& items, const std::string& between = ", ") {
+  return joinedTexts(
+      items, [](const std::string& item) { return item; }, between);
 }
 
 }  // namespace fsr::settings

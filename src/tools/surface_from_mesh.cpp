@@ -67,10 +67,7 @@ mesh::SheetPlace placeIn(const CommandLine& line, double unit) {
   place.row_direction = pointIn(line, "row-direction");
   if (!(place.row_direction.norm() > 0))
     throw fsr::settings::InputError("--row-direction is 0,0,0, but must be a direction");
-  const std::string side = line.text("side", "outside");
-  if (side != "outside" && side != "inside")
-    throw fsr::settings::InputError("--side is \"" + side + "\", but must be outside or inside");
-  place.along_normals = side == "outside";
+  place.along_normals = line.choice("side", {"outside", "inside"}, "outside") == "outside";
   return place;
 }
 
@@ -98,10 +95,7 @@ double drawnGap(const mesh::MeshSurface& made, const fsr::matrix::Layout& layout
 
 int surfaceFromMeshTool(int argc, const char* const* argv) {
   CommandLine line = commandLine();
-  if (!line.parse(argc, argv)) {
-    std::cout << line.help();
-    return 0;
-  }
+  if (!line.parse(argc, argv, std::cout)) return 0;
   if (line.files().size() != 1)
     throw fsr::settings::InputError("give one mesh (.stl, .ply or .obj); see surface_from_mesh --help");
   const std::filesystem::path file = line.files().front();

@@ -128,10 +128,7 @@ void write(const blind::BlindCase& made, const std::string& output, const std::s
 int main(int argc, char** argv) {
   return fsr::settings::runTool("blind_case", [&] {
     fsr::settings::CommandLine line = commandLine();
-    if (!line.parse(argc, argv)) {
-      std::cout << line.help();
-      return 0;
-    }
+    if (!line.parse(argc, argv, std::cout)) return 0;
     if (line.has("list")) {
       list();
       return 0;

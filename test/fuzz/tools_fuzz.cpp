@@ -11,11 +11,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "fuzz/fuzz_file.h"
-#include "ros/tools/check_bag_tool.h"
-#include "ros/tools/csv_tool.h"
-#include "ros/tools/export_tool.h"
-#include "ros/tools/scrub_tool.h"
-#include "ros/tools/train_tool.h"
+#include "ros/tools/tools.h"
 
 namespace {
 

@@ -224,7 +224,7 @@ TEST_F(SurfaceFromMesh, RefusesWrongOptionsInASentenceAndWritesNothing) {
       {replaced("0,1,0", "1,0,0"), "--row-direction is within 6 degrees"},
       {replaced("0,1,0", "0,0,0"), "must be a direction"},
       {good + " --columns 14", "is beside the mesh or in a hole of it"},
-      {good + " --side top", "must be outside or inside"},
+      {good + " --side top", "must be one of outside, inside"},
       {replaced("socket.stl", "none.stl"), "none.stl: there is no such file"},
       {replaced("--output wall.yaml", "--output socket.stl"), "socket.stl"},
       {replaced("--output wall.yaml", "--output none/wall.yaml"), "none"}};

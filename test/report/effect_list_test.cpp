@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "report/portrait_json.h"
 #include "simulation/effects/effect_library.h"
 
 namespace {

@@ -23,7 +23,7 @@
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "ros/bags/bag_writer.h"
 #include "ros/bags/resource_path.h"
-#include "ros/tools/train_tool.h"
+#include "ros/tools/tools.h"
 #include "support/synthetic_recording.h"
 
 namespace {
@@ -99,7 +99,8 @@ void addReject(const std::string& path, double time) {
   fsr_pressure_map::Event event;
   event.header.stamp = ros::Time(1500000000 + time);
   event.kind = "reject";
-  event.label = fsr::dataset::rejectLabel("step 1", fsr::dataset::RejectReason::kSheetOff, "the sheet is off");
+  event.label =
+      fsr::dataset::rejectLabel("step 1", fsr::dataset::RejectReason::kSheetOff, "the sheet is off");
   bag.write("/fsr/events", event.header.stamp, event);
 }
 
@@ -160,7 +161,9 @@ TEST_F(Training, AReplayedBagGivesTheTablesOfTheTool) {
   EXPECT_EQ(live.scores.whole.rmse_percent.mean, direct.scores.whole.rmse_percent.mean);
   EXPECT_EQ(live.trained.temperature.high, direct.trained.temperature.high);
   EXPECT_EQ(live.warnings.size(), direct.warnings.size());
-  const auto rejected = [](const std::string& warning) { return warning.find("sheet_off") != std::string::npos; };
+  const auto rejected = [](const std::string& warning) {
+    return warning.find("sheet_off") != std::string::npos;
+  };
   EXPECT_EQ(std::count_if(live.warnings.begin(), live.warnings.end(), rejected), 1);
 }
 

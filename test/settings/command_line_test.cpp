@@ -24,7 +24,7 @@ CommandLine tool() {
 
 bool parse(CommandLine& line, std::vector<const char*> words) {
   words.insert(words.begin(), "train");
-  return line.parse(static_cast<int>(words.size()), words.data());
+  return line.parse(static_cast<int>(words.size()), words.data(), std::cout);
 }
 
 std::string complaint(const std::vector<const char*>& words) {
@@ -118,7 +118,7 @@ TEST(CommandLine, RefusesAnOutputThatIsAnInputHoweverItIsSpelled) {
     std::vector<const char*> arguments = {"train"};
     for (const std::string& word : words) arguments.push_back(word.c_str());
     try {
-      line.parse(static_cast<int>(arguments.size()), arguments.data());
+      line.parse(static_cast<int>(arguments.size()), arguments.data(), std::cout);
     } catch (const InputError& error) {
       return error.what();
     }

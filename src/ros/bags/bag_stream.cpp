@@ -34,10 +34,7 @@ void requireKind(const RecordFile& file, std::uint8_t kind, const std::string& w
 StreamedConnection connectionOf(std::string_view header, std::string_view data) {
   StreamedConnection connection;
   connection.id = field<std::uint32_t>(header, rosbag::CONNECTION_FIELD_NAME);
-  connection.about = {std::string(field<std::string_view>(header, rosbag::TOPIC_FIELD_NAME)),
-                      std::string(field<std::string_view>(data, rosbag::TYPE_FIELD_NAME)),
-                      std::string(field<std::string_view>(data, "md5sum")),
-                      std::string(field<std::string_view>(data, "message_definition"))};
+  connection.about = connectionIn(header, data);
   while (!data.empty()) {
     const std::string_view entry = takeBlock(data);
     const std::size_t equals = entry.find('=');

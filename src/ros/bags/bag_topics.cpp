@@ -3,6 +3,7 @@
 #include <fsr_pressure_map/Event.h>
 #include <fsr_pressure_map/Session.h>
 #include <algorithm>
+#include <boost/algorithm/string/predicate.hpp>
 #include <cmath>
 #include <cstring>
 #include <iomanip>
@@ -96,10 +97,6 @@ class Course {
   std::vector<Times> messages_;
 };
 
-bool endsWith(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
 }  // namespace
 
 std::vector<TopicCourse> topicCourses(const std::string& path) {
@@ -170,7 +167,7 @@ std::vector<std::int64_t> eventTimes(const std::string& path, const std::string&
   tellingOfDamage(path, [&] {
     const BagWalk bag(path);
     const auto isEvent = [](const BagConnection& connection) {
-      return endsWith(connection.topic, "events") &&
+      return boost::ends_with(connection.topic, "events") &&
              connection.type == ros::message_traits::datatype<fsr_pressure_map::Event>();
     };
     const auto& connections = bag.connections();

@@ -168,17 +168,18 @@ BagWalk::BagWalk(const std::string& path) : path_(path) {
   for (file.goTo(index_position); !file.atEnd();) {
     file.next();
     const auto kind = field<std::uint8_t>(file.header(), rosbag::OP_FIELD_NAME);
-    if (kind == rosbag::OP_CONNECTION) addConnection(file.header(), file.data());
+    if (kind == rosbag::OP_CONNECTION)
+      connections_[field<std::uint32_t>(file.header(), rosbag::CONNECTION_FIELD_NAME)] =
+          connectionIn(file.header(), file.data());
     if (kind == rosbag::OP_CHUNK_INFO) addCounts(file.data());
   }
 }
 
-void BagWalk::addConnection(std::string_view header, std::string_view data) {
-  connections_[field<std::uint32_t>(header, rosbag::CONNECTION_FIELD_NAME)] = {
-      std::string(field<std::string_view>(header, rosbag::TOPIC_FIELD_NAME)),
-      std::string(field<std::string_view>(data, rosbag::TYPE_FIELD_NAME)),
-      std::string(field<std::string_view>(data, "md5sum")),
-      std::string(field<std::string_view>(data, "message_definition"))};
+BagConnection connectionIn(std::string_view header, std::string_view data) {
+  return {std::string(field<std::string_view>(header, rosbag::TOPIC_FIELD_NAME)),
+          std::string(field<std::string_view>(data, rosbag::TYPE_FIELD_NAME)),
+          std::string(field<std::string_view>(data, "md5sum")),
+          std::string(field<std::string_view>(data, "message_definition"))};
 }
 
 // Pairs of a connection and its number of messages in a chunk.

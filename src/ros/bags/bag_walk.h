@@ -14,6 +14,9 @@ struct BagConnection {
   std::string definition;  ///< of the message type, as text
 };
 
+/// The connection that a record of a bag describes. Throws rosbag::BagFormatException.
+BagConnection connectionIn(std::string_view header, std::string_view data);
+
 /// A serialised message, in memory that belongs to the walk.
 struct MessageBytes {
   std::uint8_t* data;
@@ -51,7 +54,6 @@ class BagWalk {
   std::string run(const Visit& visit, const ReadProgress& progress = {}) const;
 
  private:
-  void addConnection(std::string_view header, std::string_view data);
   void addCounts(std::string_view data);
 
   std::string path_;

@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <boost/algorithm/string/predicate.hpp>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -305,11 +306,6 @@ bool isComplete(const std::string& path) {
   }
 }
 
-bool isActive(const std::string& path) {
-  const std::size_t end = sizeof(kActive) - 1;
-  return path.size() > end && path.compare(path.size() - end, end, kActive) == 0;
-}
-
 }  // namespace
 
 RecordingLock::RecordingLock(const std::string& path, Open open)
@@ -349,7 +345,7 @@ RescuedBag rescueBag(const std::string& path) {
     throw fsr::settings::InputError(path + ": cannot be closed (" + error.what() +
                                     "); save what is left with: rosbag reindex " + path);
   }
-  if (rescued.complaint.empty() && isActive(path)) rescued.file = giveClosedName(path);
+  if (rescued.complaint.empty() && boost::ends_with(path, kActive)) rescued.file = giveClosedName(path);
   return rescued;
 }
 

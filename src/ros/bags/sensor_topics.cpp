@@ -8,6 +8,7 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "ros/bags/bag_walk.h"
 #include "settings/foreign_error.h"
+#include "settings/joined.h"
 
 namespace fsr_ros {
 
@@ -16,13 +17,6 @@ namespace {
 std::string withoutSlashes(const std::string& name) {
   const std::size_t first = name.find_first_not_of('/');
   return first == std::string::npos ? "" : name.substr(first, name.find_last_not_of('/') - first + 1);
-}
-
-template <typename Names>
-std::string listOf(const Names& names) {
-  std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-  return list.empty() ? "none" : list;
 }
 
 void requireFile(const std::string& path) {
@@ -89,7 +83,7 @@ std::string SensorTopics::findNamespace(const std::vector<Mark>& marks) const {
                                     marks.front().type + ", but " + list() + "; record with record.launch");
   }
   if (found.size() > 1) {
-    throw fsr::settings::InputError("holds several sensors: " + listOf(found) +
+    throw fsr::settings::InputError("holds several sensors: " + fsr::settings::joined(found) +
                                     "; choose one with --namespace");
   }
   return *found.begin();
@@ -104,9 +98,8 @@ std::string SensorTopics::find(const std::string& base) const {
 }
 
 std::string SensorTopics::list() const {
-  std::vector<std::string> names;
-  for (const auto& entry : types_) names.push_back(entry.first);
-  return listOf(names);
+  if (types_.empty()) return "none";
+  return fsr::settings::joinedTexts(types_, [](const auto& entry) { return entry.first; });
 }
 
 void SensorTopics::requireType(const std::string& topic, const std::string& type) const {

@@ -5,20 +5,11 @@
 
 #include "matrix/surface_file.h"
 #include "ros/bags/resource_path.h"
+#include "settings/joined.h"
 
 namespace fsr_ros {
 
 namespace fs = std::filesystem;
-
-namespace {
-
-std::string listed(const std::vector<std::string>& names) {
-  std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-  return list.empty() ? "none" : list;
-}
-
-}  // namespace
 
 SurfaceFolder::SurfaceFolder(const std::string& folder, fsr::matrix::MatrixSize size)
     : folder_(resolveResource(folder)), size_(size) {}
@@ -38,9 +29,9 @@ std::string SurfaceFolder::pathOf(const std::string& surface) const {
   std::string path = is_path ? resolveResource(surface) : (fs::path(folder_) / (surface + ".yaml")).string();
   std::error_code error;
   if (!fs::exists(path, error)) {
-    const std::string why = error ? " (" + error.message() + ")" : "";
+    const std::string why = error ? " (" + error.message() + ")" : "", known = fsr::settings::joined(names());
     throw fsr::settings::InputError("surface " + surface + ": there is no file " + path + why +
-                                    "; surfaces in " + folder_ + ": " + listed(names()));
+                                    "; surfaces in " + folder_ + ": " + (known.empty() ? "none" : known));
   }
   return path;
 }

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "protocol/serial_port.h"
-#include "ros/driver/driver_parameters.h"
 
 namespace fsr_ros {
 namespace {
@@ -54,16 +53,6 @@ fsr::protocol::BoardReader::Open opener(const DriverSettings& settings) {
   };
 }
 
-DriverSettings readSettings(const ros::NodeHandle& private_handle) {
-  const Parameters parameters(private_handle);
-  const DriverSettings settings = readDriverSettings(parameters);
-  for (const std::string& name : parameters.unknown()) {
-    ROS_WARN_STREAM(
-        "parameter " << name << " is set, but the driver has no parameter of that name, so it has no effect");
-  }
-  return settings;
-}
-
 bool operator!=(const Board& a, const Board& b) {
   return a.serial != b.serial || a.firmware != b.firmware || a.size != b.size || a.full_scale != b.full_scale;
 }
@@ -73,7 +62,7 @@ bool operator!=(const Board& a, const Board& b) {
 Driver::Driver(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle)
     : handle_(handle),
       private_handle_(private_handle),
-      settings_(readSettings(private_handle)),
+      settings_(readDriverSettings(Parameters(private_handle))),
       stamper_(clockOptions()),
       diagnostics_(handle, private_handle, private_handle.getNamespace()) {
   raw_ = handle_.advertise<fsr_pressure_map::MatrixFrame>("raw", kQueue);

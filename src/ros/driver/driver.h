@@ -12,8 +12,8 @@
 #include "protocol/board_reader.h"
 #include "protocol/packet_stamper.h"
 #include "ros/driver/driver_health.h"
+#include "ros/live/parameters.h"
 #include "ros/messages/driver_messages.h"
-#include "ros/messages/driver_settings.h"
 
 namespace fsr_ros {
 
@@ -86,5 +86,9 @@ class Driver : private fsr::protocol::LinkHandler {
   ros::WallTimer timer_;
   std::unique_ptr<fsr::protocol::BoardReader> reader_;  // last: its thread uses everything above
 };
+
+/// Reads and checks the driver's private parameters, and warns of unknown ones. Throws
+/// fsr::settings::InputError.
+DriverSettings readDriverSettings(const Parameters& parameters);
 
 }  // namespace fsr_ros

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <optional>
 
-#include "ros/driver/text_health.h"
 #include "settings/number_text.h"
 
 namespace fsr_ros {

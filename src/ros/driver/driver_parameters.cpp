@@ -1,4 +1,4 @@
-#include "ros/driver/driver_parameters.h"
+#include "ros/driver/driver.h"
 
 #include <limits>
 #include <utility>
@@ -83,6 +83,7 @@ DriverSettings readDriverSettings(const Parameters& parameters) {
       parameters.number("ambient_pressure", settings.ambient_pressure, {0, 1e7, "Pa"});
   settings.expected_frequency = parameters.number("expected_frequency", 0, {0, 1e5, "1/s"});
   settings.frequency_tolerance = parameters.number("frequency_tolerance", 0.1, {0, kInfinity, ""});
+  parameters.warnOfUnknown("driver");
   return settings;
 }
 

@@ -1,4 +1,4 @@
-#include "ros/driver/text_health.h"
+#include "ros/driver/driver_health.h"
 
 namespace fsr_ros {
 namespace {

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "ros/live/service_answer.h"
+#include "ros/live/serve.h"
 #include "settings/number_text.h"
 #include "settings/yaml_text.h"
 
@@ -27,7 +27,7 @@ std::string nameOf(const std::string& region) {
 }
 
 std::string kilopascals(double pressure) {
-  return fsr::settings::roundedText(pressure / 1000, 4) + " kPa";
+  return fsr::settings::roundedKilopascals(pressure, 4);
 }
 
 // "region toe at 40 kPa", or "no alarm for region toe".

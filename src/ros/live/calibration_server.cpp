@@ -8,7 +8,7 @@
 
 #include "ros/bags/resource_path.h"
 #include "ros/live/calibration_health.h"
-#include "ros/live/service_answer.h"
+#include "ros/live/serve.h"
 #include "ros/messages/surface_message.h"
 
 namespace fsr_ros {
@@ -64,12 +64,12 @@ void CalibrationServer::serve() {
   ros::NodeHandle slow(private_handle_);
   slow.setCallbackQueue(&slow_queue_);
   services_ = {slow.advertiseService("load_calibration", &CalibrationServer::loadCalibration, this),
-               slow.advertiseService("reload", &CalibrationServer::reload, this),
                slow.advertiseService("set_mask", &CalibrationServer::setMask, this),
-               slow.advertiseService("tare", &CalibrationServer::tare, this),
-               slow.advertiseService("check_surface", &CalibrationServer::checkSurface, this),
-               slow.advertiseService("estimate_surface", &CalibrationServer::estimateSurface, this),
-               slow.advertiseService("clear_tare", &CalibrationServer::clearTare, this)};
+               advertiseTrigger(slow, "reload", [this] { return reload(); }),
+               advertiseTrigger(slow, "tare", [this] { return live_.tare(kPatience); }),
+               advertiseTrigger(slow, "check_surface", [this] { return live_.checkSurface(kPatience); }),
+               advertiseTrigger(slow, "estimate_surface", [this] { return useEstimate(false); }),
+               advertiseTrigger(slow, "clear_tare", [this] { return live_.clearTare(); })};
   watch_ = slow.createWallTimer(ros::WallDuration(kWatchPeriod), [this](const ros::WallTimerEvent&) {
     tryWanted();
     live_.removeDroppedTare();
@@ -185,27 +185,15 @@ bool CalibrationServer::loadCalibration(fsr_pressure_map::LoadFile::Request& req
   return true;
 }
 
-bool CalibrationServer::reload(Trigger::Request& /*request*/, Trigger::Response& response) {
-  answer(response, [&] { return live_.reload(); });
+std::string CalibrationServer::reload() {
+  const std::string done = live_.reload();
   publishInfo();
-  return true;
+  return done;
 }
 
 bool CalibrationServer::setMask(fsr_pressure_map::SetMask::Request& request,
                                 fsr_pressure_map::SetMask::Response& response) {
   return answer(response, [&] { return live_.setMask(request.mask); });
-}
-
-bool CalibrationServer::tare(Trigger::Request& /*request*/, Trigger::Response& response) {
-  return answer(response, [&] { return live_.tare(kPatience); });
-}
-
-bool CalibrationServer::checkSurface(Trigger::Request& /*request*/, Trigger::Response& response) {
-  return answer(response, [&] { return live_.checkSurface(kPatience); });
-}
-
-bool CalibrationServer::estimateSurface(Trigger::Request& /*request*/, Trigger::Response& response) {
-  return answer(response, [&] { return useEstimate(false); });
 }
 
 // The estimate is published, and comes back as any other curvature. `only_if_it_differs`: where the sheet
@@ -224,10 +212,6 @@ std::string CalibrationServer::useEstimate(bool only_if_it_differs) {
   message.header.stamp = ros::Time::now();
   estimated_.publish(message);
   return sentence + "; it is used from now on, as mount " + std::to_string(surface.mount);
-}
-
-bool CalibrationServer::clearTare(Trigger::Request& /*request*/, Trigger::Response& response) {
-  return answer(response, [&] { return live_.clearTare(); });
 }
 
 }  // namespace fsr_ros

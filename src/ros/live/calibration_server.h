@@ -7,7 +7,6 @@
 #include <ros/callback_queue.h>
 #include <ros/node_handle.h>
 #include <ros/spinner.h>
-#include <std_srvs/Trigger.h>
 
 #include <functional>
 #include <string>
@@ -32,8 +31,6 @@ class CalibrationServer {
   ~CalibrationServer();
 
  private:
-  using Trigger = std_srvs::Trigger;
-
   void advertise();
   void serve();
   void subscribe();
@@ -49,12 +46,8 @@ class CalibrationServer {
 
   bool loadCalibration(fsr_pressure_map::LoadFile::Request& request,
                        fsr_pressure_map::LoadFile::Response& response);
-  bool reload(Trigger::Request& request, Trigger::Response& response);
+  std::string reload();
   bool setMask(fsr_pressure_map::SetMask::Request& request, fsr_pressure_map::SetMask::Response& response);
-  bool tare(Trigger::Request& request, Trigger::Response& response);
-  bool checkSurface(Trigger::Request& request, Trigger::Response& response);
-  bool estimateSurface(Trigger::Request& request, Trigger::Response& response);
-  bool clearTare(Trigger::Request& request, Trigger::Response& response);
 
   ros::NodeHandle handle_;
   ros::NodeHandle private_handle_;

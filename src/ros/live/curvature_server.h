@@ -2,18 +2,37 @@
 
 #include <fsr_pressure_map/SetSurface.h>
 #include <ros/node_handle.h>
+#include <std_msgs/Header.h>
+#include <tf2_ros/static_transform_broadcaster.h>
 
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "fsr_pressure_map/matrix/curvature.h"
+#include "matrix/surface_file.h"
 #include "ros/bags/surface_folder.h"
 #include "ros/bags/surface_memory.h"
-#include "ros/live/mesh_publisher.h"
 #include "ros/live/parameters.h"
 
 namespace fsr_ros {
+
+/// Publishes the scan that a surface was made from on `mesh`, latched, and the transform from the frame of
+/// the scan to that of the matrix on /tf_static. rviz then draws scan and map together.
+class MeshPublisher {
+ public:
+  /// `mesh_frame`: empty = no transform is published.
+  MeshPublisher(ros::NodeHandle& handle, std::string mesh_frame);
+
+  /// `place`: nothing for a surface that was made from no scan; then the last one disappears. A transform
+  /// cannot be taken back: the last one stays until the node ends. `header`: the frame of the matrix.
+  void show(const std_msgs::Header& header, const std::optional<fsr::matrix::MeshPlace>& place);
+
+ private:
+  std::string mesh_frame_;
+  ros::Publisher mesh_;
+  std::optional<tf2_ros::StaticTransformBroadcaster> transform_;
+};
 
 /// Publishes the surface under the matrix on `curvature`, latched and repeated each second of ROS time, so
 /// that every part of a bag contains it. The service `~set_surface` changes the surface. Where the surface

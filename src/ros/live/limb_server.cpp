@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "ros/live/parameters.h"
-#include "ros/messages/statistics_message.h"
+#include "ros/messages/view_messages.h"
 
 namespace fsr_ros {
 

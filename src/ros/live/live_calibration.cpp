@@ -3,14 +3,53 @@
 #include <ros/console.h>
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 #include "fsr_pressure_map/ros/pressure_map_message.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "ros/bags/mask_file.h"
+#include "ros/bags/resource_path.h"
+#include "ros/live/parameters.h"
 #include "ros/messages/surface_message.h"
 
 namespace fsr_ros {
+
+namespace {
+
+constexpr double kNoBound = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+CalibrationSettings readCalibrationSettings(const ros::NodeHandle& private_handle) {
+  const Parameters parameters(private_handle, {{"remember", ""}});
+  CalibrationSettings s;
+  s.calibration = resolveLaunchPath(parameters.text("calibration", ""));
+  s.calibrator.class_hysteresis =
+      parameters.number("class_hysteresis", s.calibrator.class_hysteresis, {0, 1000, "1/m"});
+  s.calibrator.curvature_step =
+      parameters.number("curvature_step", s.calibrator.curvature_step, {0, 1000, "1/m"});
+  s.calibrator.curvature_timeout =
+      parameters.number("curvature_timeout", s.calibrator.curvature_timeout, {0, kNoBound, "s"});
+  s.calibrator.fill_bad_taxels = parameters.flag("fill_bad_taxels", s.calibrator.fill_bad_taxels);
+  s.calibrator.temperature_margin =
+      parameters.number("temperature_margin", s.calibrator.temperature_margin, {0, 1000, "K"});
+  const std::string curvature = parameters.text("curvature", "published");
+  if (curvature != "published" && curvature != "estimated")
+    throw fsr::settings::InputError("~curvature is '" + curvature + "', but must be published or estimated");
+  s.estimates_curvature = curvature == "estimated";
+  s.contact_threshold = parameters.number("contact_threshold", s.contact_threshold, {0, 1e6, "Pa"});
+  s.tare.limit = parameters.number("tare_limit", s.tare.limit, {0, 1e6, "Pa"});
+  s.tare.scatter = parameters.number("tare_scatter", s.tare.scatter, {0, 1e6, "Pa"});
+  s.tare.window = parameters.number("tare_window", s.tare.window, {0.1, 60, "s"});
+  if (parameters.flag("remember", true)) {
+    s.tare_file = ownFile(parameters, "tare_file", private_handle.getNamespace(), "tare");
+    s.mask_file = ownFile(parameters, "mask_file", private_handle.getNamespace(), "mask");
+  }
+  s.queue_size =
+      static_cast<std::uint32_t>(parameters.integer("queue_size", s.queue_size, {1, 100000, "messages"}));
+  return s;
+}
 
 namespace {
 
@@ -197,6 +236,24 @@ std::string LiveCalibration::setMask(const std::vector<std::uint8_t>& mask) {
   mask_ = std::move(next);
   applyMask();
   return std::to_string(maskedTaxels()) + " taxels are masked" + storedText(settings_.mask_file);
+}
+
+// Waits while scans come, until `done`. `refused` begins the sentence of what is thrown.
+void LiveCalibration::awaitScans(std::unique_lock<std::mutex>& lock, double patience,
+                                 const std::string& refused, const std::function<bool()>& done) {
+  using Clock = std::chrono::steady_clock;
+  constexpr std::chrono::seconds kLongestWait{60};  // if the stamps do not advance
+  const auto give_up = Clock::now() + kLongestWait;
+  while (!done()) {
+    const std::uint64_t seen = scans_;
+    const bool came = progress_.wait_for(lock, std::chrono::duration<double>(patience),
+                                         [&] { return scans_ != seen || stopping_ || done(); });
+    if (stopping_) throw fsr::settings::InputError(refused + "the node is ending");
+    if (!came)
+      throw fsr::settings::InputError(refused + "no scan has come for a while; is the driver running?");
+    if (Clock::now() > give_up)
+      throw fsr::settings::InputError(refused + "there were not enough scans; do the stamps advance?");
+  }
 }
 
 std::string LiveCalibration::storedText(const std::string& file) {

@@ -5,8 +5,10 @@
 #include <fsr_pressure_map/MatrixInfo.h>
 #include <fsr_pressure_map/PressureMap.h>
 #include <fsr_pressure_map/SurfaceCurvature.h>
+#include <ros/node_handle.h>
 
 #include <condition_variable>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -15,15 +17,35 @@
 #include <string>
 #include <vector>
 
+#include "calibration/stages/session/tare.h"
 #include "calibration/stages/shape/rest_window.h"
 #include "calibration/stages/shape/shape_check.h"
+#include "fsr_pressure_map/calibration/calibrator.h"
 #include "fsr_pressure_map/map/pressure_map.h"
 #include "fsr_pressure_map/matrix/curvature.h"
 #include "ros/bags/loaded_calibration.h"
-#include "ros/live/calibration_settings.h"
+#include "ros/live/parameters.h"
 #include "ros/live/tare_keeper.h"
 
 namespace fsr_ros {
+
+/// Parameters of the calibration node and their defaults.
+struct CalibrationSettings {
+  std::string calibration;  ///< resolved path; empty = wait for ~load_calibration
+  fsr::calibration::CalibratorOptions
+      calibrator;  ///< ~class_hysteresis, ~curvature_step, ~curvature_timeout, ~temperature_margin,
+                   ///< ~fill_bad_taxels
+  fsr::calibration::TareOptions tare;  ///< ~tare_limit, ~tare_scatter, ~tare_window
+  std::string tare_file;               ///< resolved path; empty = nothing is read or stored (~remember)
+  std::string mask_file;               ///< likewise
+  bool estimates_curvature = false;    ///< ~curvature is "estimated": this node publishes it
+  double contact_threshold = 10e3;     ///< diagnostics count a taxel as in contact from this pressure on [Pa]
+  std::uint32_t queue_size =
+      10000;  ///< length of the queues of scans and maps [messages]: ten seconds at 1 kHz
+};
+
+/// Reads and checks the private parameters. Throws fsr::InputError.
+CalibrationSettings readCalibrationSettings(const ros::NodeHandle& private_handle);
 
 /// A sample of the calibration node's state, for diagnostics.
 struct CalibrationHealth {
@@ -116,7 +138,8 @@ class LiveCalibration {
   std::string id() const { return loaded_ ? loaded_->info.id : std::string(); }
   void startTare();
   fsr::calibration::Tare measureTare(std::unique_lock<std::mutex>& lock, double patience);
-  void awaitWindow(std::unique_lock<std::mutex>& lock, double patience);
+  void awaitScans(std::unique_lock<std::mutex>& lock, double patience, const std::string& refused,
+                  const std::function<bool()>& done);
   void watchShape(const fsr::matrix::ScanView& scan, double time);
   void forgetShape();
   void startComparison();

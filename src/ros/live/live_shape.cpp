@@ -1,9 +1,9 @@
 // How the sheet lies, in LiveCalibration: services wait while scans of the unloaded sheet fill a window. In a
 // chamber at ambient the surface is compared once without being asked.
 
-#include <chrono>
 #include <cmath>
 
+#include "dataset/recording_builder.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "ros/live/live_calibration.h"
 
@@ -11,17 +11,14 @@ namespace fsr_ros {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-constexpr double kStandardAmbient = 101325;       // [Pa], without one in matrix_info
-constexpr std::chrono::seconds kLongestWait{60};  // if the stamps do not advance
 const std::string kRefused = "how the sheet lies cannot be told: ";
 
 }  // namespace
 
 void LiveCalibration::setChamber(double absolute) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  const double gauge = absolute - (board_.ambient_pressure > 0 ? board_.ambient_pressure : kStandardAmbient);
+  const double gauge =
+      absolute - (board_.ambient_pressure > 0 ? board_.ambient_pressure : fsr::dataset::kStandardAmbient);
   ambient_ = std::abs(gauge) <= fsr::calibration::kUnloaded;
   if (!ambient_) {
     load_seen_ = true;
@@ -122,20 +119,8 @@ fsr::calibration::ShapeCheck LiveCalibration::measureShape(double patience) {
 
 fsr::calibration::RestReading LiveCalibration::awaitRest(std::unique_lock<std::mutex>& lock,
                                                          double patience) {
-  const auto give_up = Clock::now() + kLongestWait;
-  while (!rest_full_) {
-    const std::uint64_t seen = scans_;
-    const bool came = progress_.wait_for(lock, std::chrono::duration<double>(patience), [&] {
-      return rest_full_ || scans_ != seen || stopping_ || !interruption_.empty();
-    });
-    if (stopping_) throw fsr::settings::InputError(kRefused + "the node is ending");
-    if (!interruption_.empty()) throw fsr::settings::InputError(kRefused + interruption_);
-    if (!came)
-      throw fsr::settings::InputError(kRefused + "no scan has come for a while; is the driver running?");
-    if (Clock::now() > give_up)
-      throw fsr::settings::InputError(kRefused +
-                                      "there were not enough scans of its matrix; do the stamps advance?");
-  }
+  awaitScans(lock, patience, kRefused, [&] { return rest_full_ || !interruption_.empty(); });
+  if (!interruption_.empty()) throw fsr::settings::InputError(kRefused + interruption_);
   return rest_->reading();
 }
 

@@ -2,7 +2,6 @@
 
 #include <ros/console.h>
 
-#include <chrono>
 #include <ctime>
 
 #include "fsr_pressure_map/settings/input_error.h"
@@ -12,14 +11,11 @@ namespace fsr_ros {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-// If the stamps do not advance, the window never fills. The service then gives up after this time.
-constexpr std::chrono::seconds kLongestTare{60};
+const std::string kRefusedTare = "the tare is refused: ";
 
 fsr::settings::InputError changedMeanwhile() {
-  return fsr::settings::InputError(
-      "the tare is refused: the calibration or the surface changed during the measurement");
+  return fsr::settings::InputError(kRefusedTare +
+                                   "the calibration or the surface changed during the measurement");
 }
 
 std::string nowUtc() {
@@ -61,9 +57,9 @@ std::string LiveCalibration::tare(double patience) {
 
 void LiveCalibration::startTare() {
   if (!loaded_) {
-    throw fsr::settings::InputError("the tare is refused: no calibration is loaded (" + complaint_ + ")");
+    throw fsr::settings::InputError(kRefusedTare + "no calibration is loaded (" + complaint_ + ")");
   }
-  if (measurement_) throw fsr::settings::InputError("the tare is refused: another tare is being measured");
+  if (measurement_) throw fsr::settings::InputError(kRefusedTare + "another tare is being measured");
   measurement_.emplace(loaded_->calibrator.layout(), settings_.tare);
   measured_ = false;
   measured_for_ = {};
@@ -75,32 +71,19 @@ void LiveCalibration::startTare() {
 }
 
 fsr::calibration::Tare LiveCalibration::measureTare(std::unique_lock<std::mutex>& lock, double patience) {
-  awaitWindow(lock, patience);
+  const std::uint64_t before = scans_;
+  awaitScans(lock, patience, kRefusedTare, [&] {
+    using fsr::map::MapState;
+    const bool mismatch = map_.state == MapState::kSizeMismatch || map_.state == MapState::kWrongSensor;
+    if (scans_ != before && mismatch)
+      throw fsr::settings::InputError(kRefusedTare + "the board does not match the calibration");
+    if (!loaded_ || !fsr::calibration::holds(measured_for_, id(), surface_)) throw changedMeanwhile();
+    return measured_;
+  });
   fsr::calibration::Tare tare = measured_for_;
   tare.offset = measurement_->offset(tare_.review(id(), surface_received_ ? &surface_ : nullptr));
   tare.date = nowUtc();
   return tare;
-}
-
-void LiveCalibration::awaitWindow(std::unique_lock<std::mutex>& lock, double patience) {
-  const auto give_up = Clock::now() + kLongestTare;
-  while (!measured_) {
-    const std::uint64_t seen = scans_;
-    const bool came = progress_.wait_for(lock, std::chrono::duration<double>(patience),
-                                         [&] { return scans_ != seen || stopping_; });
-    if (stopping_) throw fsr::settings::InputError("the tare is refused: the node is ending");
-    if (!came)
-      throw fsr::settings::InputError(
-          "the tare is refused: no scan has come for a while; is the driver running?");
-    if (map_.state == fsr::map::MapState::kSizeMismatch || map_.state == fsr::map::MapState::kWrongSensor) {
-      throw fsr::settings::InputError("the tare is refused: the board does not match the calibration");
-    }
-    if (!loaded_ || !fsr::calibration::holds(measured_for_, id(), surface_)) throw changedMeanwhile();
-    if (Clock::now() > give_up) {
-      throw fsr::settings::InputError(
-          "the tare is refused: there were not enough scans within its window; do the stamps advance?");
-    }
-  }
 }
 
 std::string LiveCalibration::clearTare() {

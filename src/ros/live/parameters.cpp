@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "ros/bags/resource_path.h"
+#include "settings/joined.h"
 
 namespace fsr_ros {
 
@@ -57,18 +58,18 @@ bool Parameters::isSet(const std::string& name) const {
   return handle_.hasParam(name);
 }
 
-std::vector<std::string> Parameters::unknown() const {
+void Parameters::warnOfUnknown(const std::string& node) const {
   const std::string own = handle_.getNamespace() + "/";
   std::vector<std::string> names;
-  std::vector<std::string> unknown;
   handle_.getParamNames(names);
   for (const std::string& name : names) {
     const bool is_own = name.compare(0, own.size(), own) == 0;
     const std::string rest = is_own ? name.substr(own.size()) : "";
     const bool general = rest == "diagnostic_period" || rest == "rig" || rest == "launched";
-    if (is_own && asked_.count(name) == 0 && !general) unknown.push_back(name);
+    if (!is_own || asked_.count(name) > 0 || general) continue;
+    ROS_WARN_STREAM("parameter " << name << " is set, but the " << node
+                                 << " has no parameter of that name, so it has no effect");
   }
-  return unknown;
 }
 
 double Parameters::number(const std::string& name, double fallback, const fsr::settings::Range& range) const {
@@ -115,9 +116,16 @@ std::string Parameters::choice(const std::string& name, const std::vector<std::s
   const std::string value = text(name, fallback);
   if (std::find(choices.begin(), choices.end(), value) != choices.end()) return value;
   if (isOfRig(name)) return rig_->choice(argumentOf(name), choices);  // throws
-  std::string list;
-  for (const auto& choice : choices) list += (list.empty() ? "" : ", ") + choice;
-  throw error(name, "must be one of " + list);
+  throw error(name, "must be one of " + fsr::settings::joined(choices));
+}
+
+std::string ownFile(const Parameters& parameters, const std::string& name, const std::string& node,
+                    const std::string& what) {
+  const std::string given = parameters.text(name, "");
+  if (!given.empty()) return resolveLaunchPath(given);
+  std::string file = node.substr(node.find_first_not_of('/'));
+  std::replace(file.begin(), file.end(), '/', '_');
+  return resolveResource("${ROS_HOME}/fsr_pressure_map/" + file + "_" + what + ".yaml");
 }
 
 }  // namespace fsr_ros

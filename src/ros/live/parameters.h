@@ -38,10 +38,9 @@ class Parameters {
   std::string choice(const std::string& name, const std::vector<std::string>& choices,
                      const std::string& fallback) const;
 
-  /// Full paths of the private parameters that are set, but were not read. Call it after all parameters have
-  /// been read and warn about the result, because a misspelt parameter would otherwise be ignored without a
-  /// message.
-  std::vector<std::string> unknown() const;
+  /// Warns of private parameters that are set, but were not read. Call it after all parameters have been
+  /// read, because a misspelt one would otherwise be ignored without a message. `node`: e.g. "view node".
+  void warnOfUnknown(const std::string& node) const;
 
   /// An InputError about a parameter: "parameter /fsr/driver/rows is 90, but " + `complaint`; or about the
   /// rig file, where the value is in it.
@@ -72,5 +71,12 @@ int runNode(Run run) {
     return 2;
   }
 }
+
+/// Path of a file in which a node keeps `what` from one run to the next: the parameter `name`, or, where it
+/// is not set or empty (as in the launch files), a file of its own for each node: /fsr/calibration and "tare"
+/// give
+/// ${ROS_HOME}/fsr_pressure_map/fsr_calibration_tare.yaml. Throws fsr::InputError.
+std::string ownFile(const Parameters& parameters, const std::string& name, const std::string& node,
+                    const std::string& what);
 
 }  // namespace fsr_ros

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "ros/bags/resource_path.h"
-#include "ros/live/service_answer.h"
+#include "ros/live/serve.h"
 
 namespace fsr_ros {
 
@@ -64,8 +64,14 @@ RigEmulator::RigEmulator(const ros::NodeHandle& handle, const ros::NodeHandle& p
   if (operator_) {
     operator_->workAt(*rig_);
   } else {
-    services_.push_back(own.advertiseService("start", &RigEmulator::start, this));
-    services_.push_back(own.advertiseService("stop", &RigEmulator::stop, this));
+    services_.push_back(advertiseTrigger(own, "start", [this] {
+      const fsr::simulation::ChamberProtocol protocol = readProtocol();
+      return "run " + std::to_string(rig_->startCycles(protocol)) + ": " + describe(protocol);
+    }));
+    services_.push_back(advertiseTrigger(own, "stop", [this] {
+      rig_->stopCycles();
+      return std::string("the chamber vents to rest");
+    }));
     services_.push_back(own.advertiseService("set_surface", &RigEmulator::setSurface, this));
   }
   ROS_INFO_STREAM("emulated board " << options.simulation.board.serial << " (" << options.simulation.origin
@@ -146,20 +152,6 @@ void RigEmulator::publishStatus(const fsr::emulator::RigStatus& status) {
   std_msgs::String message;
   message.data = stateName(status.state) + " " + std::to_string(status.run);
   status_.publish(message);
-}
-
-bool RigEmulator::start(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
-  return answer(response, [this] {
-    const fsr::simulation::ChamberProtocol protocol = readProtocol();
-    return "run " + std::to_string(rig_->startCycles(protocol)) + ": " + describe(protocol);
-  });
-}
-
-bool RigEmulator::stop(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
-  return answer(response, [this] {
-    rig_->stopCycles();
-    return std::string("the chamber vents to rest");
-  });
 }
 
 bool RigEmulator::setSurface(fsr_pressure_map::SetSurface::Request& request,

@@ -3,7 +3,6 @@
 #include <fsr_pressure_map/SetSurface.h>
 #include <ros/node_handle.h>
 #include <std_srvs/SetBool.h>
-#include <std_srvs/Trigger.h>
 
 #include <memory>
 
@@ -47,8 +46,6 @@ class RigEmulator {
   void publishClock(double rig_time);
   void publishStatus(const fsr::emulator::RigStatus& status);
 
-  bool start(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
-  bool stop(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool setSurface(fsr_pressure_map::SetSurface::Request& request,
                   fsr_pressure_map::SetSurface::Response& response);
   bool setDamage(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);

@@ -1,6 +1,7 @@
 #include "ros/live/serve.h"
 
 #include <ros/callback_queue.h>
+#include <std_srvs/Trigger.h>
 
 #include "settings/foreign_error.h"
 
@@ -11,6 +12,14 @@ namespace {
 constexpr double kRetryPeriod = 1;  // [s]
 
 }  // namespace
+
+ros::ServiceServer advertiseTrigger(ros::NodeHandle& node, const std::string& name,
+                                    const std::function<std::string()>& action) {
+  using Request = std_srvs::Trigger::Request;
+  using Response = std_srvs::Trigger::Response;
+  return node.advertiseService<Request, Response>(
+      name, [action](Request&, Response& response) { return answer(response, action); });
+}
 
 bool makeUntilRight(const std::function<void()>& make, const std::function<void(const std::string&)>& say) {
   while (ros::ok()) {

@@ -6,12 +6,13 @@
 #include <sstream>
 
 #include "fsr_pressure_map/calibration/calibration_file.h"
-#include "regression/regressors.h"
 #include "report/calibration_report.h"
 #include "report/history_report.h"
 #include "ros/bags/message_events.h"
 #include "ros/bags/resource_path.h"
+#include "ros/bags/training_options.h"
 #include "ros/live/parameters.h"
+#include "ros/live/serve.h"
 #include "settings/file_kind.h"
 #include "settings/replace_file.h"
 
@@ -29,41 +30,6 @@ constexpr std::size_t kCountsInMemory = 64u << 20;  // [bytes]
 std::uint64_t number(const fsr::dataset::RecordingBuilder::Events& events) {
   return events.scans + events.chamber_pressures + events.surfaces + events.temperatures +
          events.descriptions;
-}
-
-fsr::regression::RegressorOptions regressorOptions(const Parameters& parameters) {
-  fsr::regression::RegressorOptions options;
-  options.name = parameters.choice("model", fsr::regression::regressorNames(), options.name);
-  options.grnn.spread =
-      fsr::regression::spreadFromName(parameters.choice("spread", fsr::regression::spreadNames(), "sigma"));
-  options.grnn.distance = fsr::regression::distanceFromName(
-      parameters.choice("distance", fsr::regression::distanceNames(), "squared"));
-  if (parameters.flag("equal_bins", false))
-    options.grnn.weighting = fsr::regression::SampleWeighting::kEachPressureBin;
-  options.forest.trees = static_cast<std::size_t>(parameters.integer("trees", 150, {1, 1e5, ""}));
-  options.forest.minimum_leaf = static_cast<std::size_t>(parameters.integer("minimum_leaf", 5, {1, 1e6, ""}));
-  options.forest.leaf_count = fsr::regression::leafRuleFromName(
-      parameters.choice("leaf_rule", fsr::regression::leafRuleNames(), "draws"));
-  return options;
-}
-
-fsr::calibration::CalibrationOptions calibrationOptions(const Parameters& parameters) {
-  fsr::calibration::CalibrationOptions options;
-  options.scheme = fsr::compensation::schemeFromName(parameters.choice(
-      "scheme", fsr::compensation::schemeNames(), fsr::compensation::schemeName(options.scheme)));
-  options.regressor = regressorOptions(parameters);
-  try {
-    const auto bandwidth = fsr::regression::bandwidthFromText(parameters.text("bandwidth", "auto"));
-    options.choose_bandwidth = !bandwidth;
-    if (bandwidth) options.regressor.grnn.bandwidth = *bandwidth;
-  } catch (const fsr::settings::InputError&) {
-    throw parameters.error("bandwidth", "must be auto, or a number, 1e-06 to 1000");
-  }
-  options.folds = static_cast<std::size_t>(parameters.integer("folds", 5, {2, 20, ""}));
-  options.scores = parameters.flag("scores", true);
-  options.threads = static_cast<unsigned>(parameters.integer("threads", 0, {0, 1024, ""}));
-  options.seed = static_cast<std::uint64_t>(parameters.integer("seed", 1, {0, 2e9, ""}));
-  return options;
 }
 
 diagnostic_msgs::KeyValue pair(const std::string& key, std::uint64_t value) {
@@ -107,21 +73,18 @@ TrainingServer::TrainingServer(const ros::NodeHandle& handle, const ros::NodeHan
   output_ = resolveResource(parameters.text("output", rosHome() + "/calibration.h5"));
   if (output_.empty()) throw parameters.error("output", "must name the calibration file to write");
   report_ = resolveResource(parameters.text("report", ""));
-  options_ = calibrationOptions(parameters);
+  options_ = trainingOptions(parameters);
+  options_.scores = parameters.flag("scores", true);
   most_ = static_cast<std::uint64_t>(parameters.integer("most_messages", 20000000, {1, 1e12, ""}));
   const double ambient = parameters.number("ambient_pressure", -1, {-1, 120e3, "Pa"});
   if (ambient >= 0) recording_options_.ambient_pressure = ambient;
-  for (const std::string& name : parameters.unknown()) {
-    ROS_WARN_STREAM(
-        "parameter " << name
-                     << " is set, but the training node has no parameter of that name, so it has no effect");
-  }
+  parameters.warnOfUnknown("training node");
   recording_options_.name = "topics of " + handle_.getNamespace();
 
   ros::NodeHandle own(private_handle);
   gathered_ = own.advertise<diagnostic_msgs::DiagnosticStatus>("gathered", 1, true);
-  services_.push_back(own.advertiseService("train", &TrainingServer::train, this));
-  services_.push_back(own.advertiseService("clear", &TrainingServer::clear, this));
+  services_ = {advertiseTrigger(own, "train", [this] { return train(); }),
+               advertiseTrigger(own, "clear", [this] { return clear(); })};
   subscribe<fsr_pressure_map::MatrixFrame>("raw");
   subscribe<sensor_msgs::FluidPressure>("chamber_pressure");
   subscribe<fsr_pressure_map::SurfaceCurvature>("curvature");
@@ -155,26 +118,9 @@ void TrainingServer::gather(const Message& message) {
   }
 }
 
-bool TrainingServer::train(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+std::string TrainingServer::train() {
   const std::unique_lock<std::mutex> alone(training_, std::try_to_lock);
-  if (!alone.owns_lock()) {
-    response.success = false;
-    response.message = "another training is running; wait for its reply";
-    return true;
-  }
-  try {
-    response.message = trainNow();
-    response.success = true;
-    ROS_INFO_STREAM("Trained: " << response.message);
-  } catch (const fsr::settings::InputError& error) {
-    response.success = false;
-    response.message = error.what();
-    ROS_ERROR_STREAM("Not trained: " << error.what());
-  }
-  return true;
-}
-
-std::string TrainingServer::trainNow() {
+  if (!alone.owns_lock()) throw fsr::settings::InputError("another training is running; wait for its reply");
   fsr::settings::requireReplaceable(output_, fsr::settings::file_kind::kCalibration);
   if (!report_.empty()) fsr::settings::requireReplaceable(report_, fsr::settings::file_kind::kJson);
   fsr::calibration::CalibrationProblem problem;
@@ -224,17 +170,17 @@ fsr::dataset::Recording TrainingServer::gatheredRecording() {
   }
 }
 
-bool TrainingServer::clear(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+std::string TrainingServer::clear() {
+  std::string removed;
   {
     const std::lock_guard<std::mutex> lock(gathering_);
-    response.message = "removed " + std::to_string(builder_.events().scans) + " scans";
+    removed = "removed " + std::to_string(builder_.events().scans) + " scans";
     builder_.clear();
     copying_ = false;
     refused_ = 0;
   }
-  response.success = true;
   publishGathered();
-  return true;
+  return removed;
 }
 
 void TrainingServer::publishGathered() {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <ros/ros.h>
-#include <std_srvs/Trigger.h>
 
 #include <cstdint>
 #include <mutex>
@@ -34,9 +33,8 @@ class TrainingServer {
   void subscribe(const std::string& topic);
   template <typename Message>
   void gather(const Message& message);
-  bool train(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
-  bool clear(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
-  std::string trainNow();
+  std::string train();
+  std::string clear();
   fsr::dataset::Recording gatheredRecording();
   void publishGathered();
 

@@ -11,13 +11,45 @@
 
 #include "fsr_pressure_map/ros/pressure_map_message.h"
 #include "fsr_pressure_map/settings/input_error.h"
-#include "ros/messages/bent_points.h"
-#include "ros/messages/image_message.h"
-#include "ros/messages/statistics_message.h"
-#include "ros/messages/surface_markers.h"
 #include "ros/messages/surface_message.h"
+#include "ros/messages/view_messages.h"
 
 namespace fsr_ros {
+
+void SheetShape::setSurface(fsr::matrix::Surface surface) {
+  if (fsr::matrix::sameCondition(surface, surface_)) return;
+  surface_ = std::move(surface);
+  forget();
+}
+
+void SheetShape::setLayout(const fsr::matrix::Layout& layout) {
+  if (layout.size == layout_.size && layout.pitch_x == layout_.pitch_x && layout.pitch_y == layout_.pitch_y) {
+    return;
+  }
+  layout_ = layout;
+  forget();
+}
+
+void SheetShape::forget() {
+  poses_.reset();
+  mesh_.reset();
+  areas_.reset();
+}
+
+const std::vector<fsr::view::TaxelPose>& SheetShape::poses() {
+  if (!poses_) poses_ = fsr::view::bendSheet(layout_, surface_);
+  return *poses_;
+}
+
+const fsr::view::SheetMesh& SheetShape::mesh() {
+  if (!mesh_) mesh_.emplace(layout_, surface_, fineness_);
+  return *mesh_;
+}
+
+const std::vector<double>& SheetShape::areas() {
+  if (!areas_) areas_ = fsr::view::taxelAreas(layout_, surface_);
+  return *areas_;
+}
 
 namespace {
 

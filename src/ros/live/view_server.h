@@ -5,16 +5,43 @@
 #include <ros/node_handle.h>
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "fsr_pressure_map/map/map_statistics.h"
+#include "fsr_pressure_map/matrix/curvature.h"
 #include "ros/live/alarm_desk.h"
 #include "ros/live/view_settings.h"
-#include "ros/messages/sheet_shape.h"
 #include "view/legend.h"
+#include "view/sheet_mesh.h"
 
 namespace fsr_ros {
+
+/// The shape of the bent sheet for the last layout and surface. It is computed on request, and again only
+/// after the layout or the surface has changed.
+class SheetShape {
+ public:
+  explicit SheetShape(int fineness) : fineness_(fineness) {}
+
+  void setSurface(fsr::matrix::Surface surface);
+  /// If the surface does not fit the layout, the next of the calls below throws fsr::InputError.
+  void setLayout(const fsr::matrix::Layout& layout);
+
+  const std::vector<fsr::view::TaxelPose>& poses();
+  const fsr::view::SheetMesh& mesh();
+  const std::vector<double>& areas();  ///< area of each taxel on the bent sheet, row-major [m^2]
+
+ private:
+  void forget();
+
+  int fineness_;
+  fsr::matrix::Surface surface_;
+  fsr::matrix::Layout layout_;
+  std::optional<std::vector<fsr::view::TaxelPose>> poses_;
+  std::optional<fsr::view::SheetMesh> mesh_;
+  std::optional<std::vector<double>> areas_;
+};
 
 /// Publishes pictures and statistics of the pressure map in the frame of the scan: `points`, `surface`,
 /// `image`, `statistics`, `centre_of_pressure`. The sheet is bent as `curvature` says, and flat while the

@@ -64,11 +64,7 @@ ViewSettings::ViewSettings(const ros::NodeHandle& private_handle) {
   alarm = alarmOf(parameters);
   kept_alarms = parameters.text("kept_alarms", "");
   stale_after = parameters.number("stale_after", 1.0, {0.05, 3600, "s"});
-  for (const std::string& name : parameters.unknown()) {
-    ROS_WARN_STREAM(
-        "parameter " << name
-                     << " is set, but the view node has no parameter of that name, so it has no effect");
-  }
+  parameters.warnOfUnknown("view node");
 }
 
 }  // namespace fsr_ros

@@ -1,12 +1,13 @@
 #include "ros/recording/bag_sink.h"
 
 #include <algorithm>
+#include <boost/algorithm/string/predicate.hpp>
 #include <chrono>
 #include <filesystem>
 #include <utility>
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "ros/bags/abandon_bag.h"
+#include "ros/bags/fresh_bag.h"
 #include "settings/number_text.h"
 
 namespace fsr_ros {
@@ -18,9 +19,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t kBatch = 256;  // messages between two checks of the space left on the disk
 
 std::string withExtension(const std::string& bag) {
-  const std::string end = ".bag";
-  const bool has_it = bag.size() >= end.size() && bag.compare(bag.size() - end.size(), end.size(), end) == 0;
-  return has_it ? bag : bag + end;
+  return boost::ends_with(bag, ".bag") ? bag : bag + ".bag";
 }
 
 // A second recording under the same name would overwrite the first one. What a recorder left that died is

@@ -67,11 +67,7 @@ Recorder::Recorder(const ros::NodeHandle& handle, const ros::NodeHandle& private
   if (!scans_topic_.empty()) scans_topic_ = handle_.resolveName(scans_topic_);
   wait_ = parameters.number("wait", 10, {0.1, 3600, "s"});
   std::istringstream topics(parameters.text("topics", ""));
-  for (const std::string& name : parameters.unknown()) {
-    ROS_WARN_STREAM(
-        "parameter " << name
-                     << " is set, but the recorder has no parameter of that name, so it has no effect");
-  }
+  parameters.warnOfUnknown("recorder");
   sink_ = std::make_unique<BagSink>(options, [this](const std::string& complaint) {
     ROS_FATAL_STREAM(complaint);
     if (!ros::ok()) std::cerr << complaint << std::endl;  // ROS has closed the log

@@ -3,6 +3,7 @@
 #include <fsr_pressure_map/Event.h>
 
 #include <algorithm>
+#include <boost/algorithm/string/predicate.hpp>
 #include <filesystem>
 #include <regex>
 #include <string>
@@ -22,10 +23,6 @@ using Level = diagnostic_msgs::DiagnosticStatus;
 
 constexpr double kSessionComplaintPeriod = 10.0;  // [s]
 constexpr double kGrowthPatience = 10.0;          // time without growth of the bag until an error [s]
-
-bool endsWith(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
 
 const std::vector<std::string> kUses = {"chamber", "socket", "bench"};
 const std::vector<std::string> kMounts = {"fixture", "mould", "limb", "liner", "socket_wall"};
@@ -63,7 +60,7 @@ fsr_pressure_map::Session readSession(const ros::NodeHandle& session_node) {
 }
 
 RecordingLook lookAtRecording(const std::string& bag) {
-  const std::string closed = endsWith(bag, ".bag") ? bag : bag + ".bag";
+  const std::string closed = boost::ends_with(bag, ".bag") ? bag : bag + ".bag";
   for (const std::string& file : {closed + ".active", closed}) {
     std::error_code error;
     const std::uintmax_t size = fs::file_size(file, error);
@@ -88,7 +85,7 @@ void RecordingWatch::judge(const RecordingLook& look, double time,
   noteGrowth(look.size, time);
   const double still = time - last_->time;
   const std::string left = fsr::settings::megabytesText(look.space) + " are left on its disk";
-  if (!endsWith(look.file, ".active")) {
+  if (!boost::ends_with(look.file, ".active")) {
     status.summary(Level::WARN, "the recording has ended: " + look.file + " is closed");
   } else if (look.space < least_space_) {
     status.summary(Level::ERROR, "RECORDING STOPPED: " + left + ", and recording stops below " +

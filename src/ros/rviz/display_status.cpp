@@ -4,7 +4,7 @@
 #include <map>
 #include <utility>
 
-#include "ros/messages/surface_markers.h"
+#include "ros/messages/view_messages.h"
 
 namespace fsr_rviz {
 

@@ -10,7 +10,7 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "ros/bags/loaded_calibration.h"
 #include "ros/live/calibration_health.h"
-#include "ros/messages/surface_markers.h"
+#include "ros/messages/view_messages.h"
 #include "ros/rviz/display_status.h"
 
 namespace fsr_rviz {

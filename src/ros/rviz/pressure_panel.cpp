@@ -24,6 +24,7 @@
 #include <pluginlib/class_list_macros.hpp>
 #include <set>
 
+#include "dataset/recording_builder.h"
 #include "fsr_pressure_map/view/colour_map.h"
 #include "ros/live/calibration_health.h"
 #include "ros/rviz/taxel_selection.h"
@@ -34,9 +35,8 @@ namespace {
 
 using fsr_pressure_map::PressureStatistics;
 
-constexpr double kStale = 3.0;           // age after which a number is no longer shown [s]
-constexpr int kRefresh = 200;            // [ms]
-constexpr double kStandardAir = 101325;  // ambient pressure without matrix_info [Pa]
+constexpr double kStale = 3.0;  // age after which a number is no longer shown [s]
+constexpr int kRefresh = 200;   // [ms]
 constexpr std::uint32_t kPanelQueue = 10;
 constexpr double kReadable = 3.0;  // an answer stays this long after the instruction has changed [s]
 constexpr int kLines = 3;          // the longest instruction has as many in a panel as wide as the coverage
@@ -116,22 +116,28 @@ PressurePanel::~PressurePanel() {
   if (caller_.joinable()) caller_.join();
 }
 
+QPushButton* PressurePanel::addButton(const char* label, QHBoxLayout* row,
+                                      const std::function<void()>& pressed) {
+  buttons_.push_back(new QPushButton(label));
+  row->addWidget(buttons_.back());
+  connect(buttons_.back(), &QPushButton::clicked, this, pressed);
+  return buttons_.back();
+}
+
 void PressurePanel::addButtons(QVBoxLayout* column) {
   auto* actions = new QHBoxLayout;
   auto* events = new QHBoxLayout;
-  const auto button = [this](const char* label, const char* slot, QHBoxLayout* row) {
-    buttons_.push_back(new QPushButton(label));
-    row->addWidget(buttons_.back());
-    connect(buttons_.back(), SIGNAL(clicked()), this, slot);
-    return buttons_.back();
+  const auto ask = [this](const char* what, const char* service) {
+    return [this, what, service] { trigger(what, service); };
   };
-  button("Tare", SLOT(tare()), actions);
-  button("Reload calibration", SLOT(reload()), actions);
+  addButton("Tare", actions, ask("tare", "calibration/tare"));
+  addButton("Reload calibration", actions, ask("reload", "calibration/reload"));
   auto* taxels = new QHBoxLayout;  // a row of its own keeps the panel narrow
-  button("Mask selected", SLOT(maskSelected()), taxels);
-  button("Check surface", SLOT(checkSurface()), taxels);
+  addButton("Mask selected", taxels, [this] { maskSelected(); });
+  addButton("Check surface", taxels, ask("check surface", "calibration/check_surface"));
   auto* estimate = new QHBoxLayout;
-  estimate_ = button("Estimate surface", SLOT(estimateSurface()), estimate);
+  estimate_ =
+      addButton("Estimate surface", estimate, ask("estimate surface", "calibration/estimate_surface"));
   estimate_->hide();
   event_kind_ = new QComboBox;
   event_kind_->addItems({"note", "cycle_start", "conditioning", "don", "doff", "step", "sync", "reject"});
@@ -140,7 +146,7 @@ void PressurePanel::addButtons(QVBoxLayout* column) {
   event_label_->setPlaceholderText("label");
   events->addWidget(event_kind_);
   events->addWidget(event_label_);
-  button("Mark event", SLOT(markEvent()), events);
+  addButton("Mark event", events, [this] { markEvent(); });
   auto* alarms = new QHBoxLayout;
   alarm_region_ = new QComboBox;
   alarm_region_->setObjectName("alarm region");
@@ -150,7 +156,7 @@ void PressurePanel::addButtons(QVBoxLayout* column) {
   alarm_threshold_->setPlaceholderText("threshold, 0 = none");
   alarms->addWidget(alarm_region_);
   alarms->addWidget(alarm_threshold_);
-  button("Set alarm", SLOT(setAlarm()), alarms);
+  addButton("Set alarm", alarms, [this] { setAlarm(); });
   column->addLayout(actions);
   column->addLayout(taxels);
   column->addLayout(estimate);
@@ -166,16 +172,10 @@ void PressurePanel::addConductor(QVBoxLayout* column) {
   instruction_ = addFixedText(lines, "instruction", true);
   remark_ = addFixedText(lines, "remark", false);
   auto* answers = new QHBoxLayout;
-  const auto button = [&](const char* label, const char* slot) {
-    buttons_.push_back(new QPushButton(label));
-    answers->addWidget(buttons_.back());
-    connect(buttons_.back(), SIGNAL(clicked()), this, slot);
-    return buttons_.back();
-  };
-  confirm_ = button("Confirm", SLOT(confirmMount()));
-  button("Accept", SLOT(acceptAttempt()));
-  button("Reject", SLOT(rejectAttempt()));
-  button("Skip", SLOT(skipStep()));
+  confirm_ = addButton("Confirm", answers, [this] { answer("confirm"); });
+  addButton("Accept", answers, [this] { answer("accept"); });
+  addButton("Reject", answers, [this] { answer("reject"); });
+  addButton("Skip", answers, [this] { answer("skip"); });
   lines->addLayout(answers);
   gauge_ = new PressureGauge;
   gauge_->setObjectName("gauge");
@@ -343,7 +343,8 @@ void PressurePanel::showRest() {
 void PressurePanel::refresh() {
   forgetReply();
   const fsr::view::PressureUnit unit = fsr::view::pressureUnitOf(unit_->currentText().toStdString());
-  const double air = last_matrix_.message ? last_matrix_.message->ambient_pressure : kStandardAir;
+  const double air =
+      last_matrix_.message ? last_matrix_.message->ambient_pressure : fsr::dataset::kStandardAmbient;
   chamber_->setText(last_chamber_.fresh()
                         ? text(fsr::view::pressureText(last_chamber_.message->fluid_pressure - air, unit)) +
                               " gauge"
@@ -418,7 +419,8 @@ void PressurePanel::showConductor() {
 }
 
 void PressurePanel::showGauge() {
-  const double air = last_matrix_.message ? last_matrix_.message->ambient_pressure : kStandardAir;
+  const double air =
+      last_matrix_.message ? last_matrix_.message->ambient_pressure : fsr::dataset::kStandardAmbient;
   const double now = last_chamber_.fresh() ? last_chamber_.message->fluid_pressure - air : std::nan("");
   const double target = target_.next(*last_instruction_.message, now);
   // Some room behind the highest peak, so that an overshoot is seen.
@@ -510,38 +512,6 @@ void PressurePanel::trigger(const std::string& what, const std::string& service)
 void PressurePanel::answer(const std::string& what) {
   trigger(what, "conduct/" + what);
   answered_ = instruction_->text();
-}
-
-void PressurePanel::confirmMount() {
-  answer("confirm");
-}
-
-void PressurePanel::acceptAttempt() {
-  answer("accept");
-}
-
-void PressurePanel::rejectAttempt() {
-  answer("reject");
-}
-
-void PressurePanel::skipStep() {
-  answer("skip");
-}
-
-void PressurePanel::tare() {
-  trigger("tare", "calibration/tare");
-}
-
-void PressurePanel::reload() {
-  trigger("reload", "calibration/reload");
-}
-
-void PressurePanel::checkSurface() {
-  trigger("check surface", "calibration/check_surface");
-}
-
-void PressurePanel::estimateSurface() {
-  trigger("estimate surface", "calibration/estimate_surface");
 }
 
 // Taxels that the tool Select has picked, each once, as row-major indices.

@@ -23,11 +23,11 @@
 
 #include "ros/rviz/panel_text.h"
 #include "ros/rviz/pressure_gauge.h"
-#include "ros/rviz/pressure_target.h"
 #endif
 
 class QComboBox;
 class QGridLayout;
+class QHBoxLayout;
 class QLabel;
 class QLineEdit;
 class QPushButton;
@@ -58,17 +58,6 @@ class PressurePanel : public rviz::Panel {
  private Q_SLOTS:
   void listen();
   void refresh();
-  void tare();
-  void reload();
-  void checkSurface();
-  void estimateSurface();
-  void maskSelected();
-  void markEvent();
-  void setAlarm();
-  void confirmMount();
-  void acceptAttempt();
-  void rejectAttempt();
-  void skipStep();
   void showReply(const QString& reply);
 
  private:
@@ -88,6 +77,7 @@ class PressurePanel : public rviz::Panel {
   void keep(const std::string& topic, Last<Message>& last);
   QLabel* addLine(QGridLayout* grid, const QString& name);
   void addNumbers(QGridLayout* grid);
+  QPushButton* addButton(const char* label, QHBoxLayout* row, const std::function<void()>& pressed);
   void addButtons(QVBoxLayout* column);
   void addConductor(QVBoxLayout* column);
   void showConductor();
@@ -104,6 +94,9 @@ class PressurePanel : public rviz::Panel {
   void showRest();
   void trigger(const std::string& what, const std::string& service);
   void answer(const std::string& what);
+  void maskSelected();
+  void markEvent();
+  void setAlarm();
   void listRegions();
   void showWaiting();
   void call(const std::string& what, const std::function<std::string()>& service);

@@ -14,7 +14,6 @@
 #include "ros/rviz/display_status.h"
 #include "ros/rviz/legend_overlay.h"
 #include "ros/rviz/sheet_letters.h"
-#include "ros/rviz/sheet_title.h"
 #include "ros/rviz/sheet_visual.h"
 #include "ros/rviz/taxel_selection.h"
 #include "ros/rviz/view_fitter.h"

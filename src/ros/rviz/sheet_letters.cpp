@@ -15,8 +15,11 @@ namespace {
 using fsr::view::SheetMesh;
 using fsr::view::Vector3;
 
-constexpr double kHeight = 0.05;      // of a capital letter, as a part of the sheet's longer side
-constexpr double kLetterWidth = 0.6;  // of a letter, as a part of its height
+// As parts of the sheet's longer side, so that the title of any matrix is as large on the screen.
+constexpr double kTitleHeight = 0.065;  // of a capital letter
+constexpr double kTitleGap = 0.11;      // to the sheet's edge
+constexpr double kHeight = 0.05;        // of a capital letter, as a part of the sheet's longer side
+constexpr double kLetterWidth = 0.6;    // of a letter, as a part of its height
 
 struct Label {
   const char* words;
@@ -59,9 +62,12 @@ Edge edgeOf(const SheetMesh& mesh, std::size_t label) {
   }
 }
 
+double longerSide(const fsr::matrix::Layout& layout) {
+  return std::max(layout.pitch_x * layout.size.columns, layout.pitch_y * layout.size.rows);
+}
+
 double heightFor(const SheetMesh& mesh) {
-  const fsr::matrix::Layout& layout = mesh.layout();
-  return kHeight * std::max(layout.pitch_x * layout.size.columns, layout.pitch_y * layout.size.rows);
+  return kHeight * longerSide(mesh.layout());
 }
 
 // Half the length of the words in letters, and the gap of one letter to the sheet.
@@ -75,39 +81,51 @@ Vector3 moved(const Edge& edge, double way) {
 
 }  // namespace
 
-SheetLetters::SheetLetters(Ogre::SceneManager* scene, Ogre::SceneNode* parent) : scene_(scene) {
-  for (const Label& label : kLabels) {
-    words_.push_back(
-        {parent->createChildSceneNode(),
-         std::make_unique<rviz::MovableText>(label.words, "Liberation Sans", 1.0F,
-                                             Ogre::ColourValue(label.red, label.green, label.blue))});
-    words_.back().text->setTextAlignment(rviz::MovableText::H_CENTER, rviz::MovableText::V_CENTER);
-    words_.back().node->attachObject(words_.back().text.get());
-  }
+Words::Words(Ogre::SceneManager* scene, Ogre::SceneNode* parent, const std::string& text,
+             const Ogre::ColourValue& colour)
+    : scene_(scene),
+      node_(parent->createChildSceneNode()),
+      text_(std::make_unique<rviz::MovableText>(text, "Liberation Sans", 1.0F, colour)) {
+  text_->setTextAlignment(rviz::MovableText::H_CENTER, rviz::MovableText::V_CENTER);
+  node_->attachObject(text_.get());
   hide();
 }
 
-SheetLetters::~SheetLetters() {
-  for (const Word& word : words_) {
-    word.node->detachObject(word.text.get());
-    scene_->destroySceneNode(word.node);
-  }
+Words::~Words() {
+  node_->detachObject(text_.get());
+  scene_->destroySceneNode(node_);
+}
+
+void Words::setText(const std::string& text) {
+  text_->setCaption(text);
+}
+
+void Words::show(double height, const Vector3& middle) {
+  text_->setCharacterHeight(static_cast<Ogre::Real>(height));
+  node_->setPosition(static_cast<Ogre::Real>(middle.x), static_cast<Ogre::Real>(middle.y),
+                     static_cast<Ogre::Real>(middle.z));
+  node_->setVisible(true);
+}
+
+void Words::hide() {
+  node_->setVisible(false);
+}
+
+SheetLetters::SheetLetters(Ogre::SceneManager* scene, Ogre::SceneNode* parent) {
+  for (const Label& label : kLabels)
+    words_.push_back(std::make_unique<Words>(scene, parent, label.words,
+                                             Ogre::ColourValue(label.red, label.green, label.blue)));
 }
 
 void SheetLetters::show(const SheetMesh& mesh) {
   const double height = heightFor(mesh);
-  for (std::size_t i = 0; i < words_.size(); ++i) {
-    const Vector3 at = moved(edgeOf(mesh, i), reach(kLabels[i], height));
-    words_[i].text->setCharacterHeight(static_cast<Ogre::Real>(height));
-    words_[i].node->setPosition(static_cast<Ogre::Real>(at.x), static_cast<Ogre::Real>(at.y),
-                                static_cast<Ogre::Real>(at.z));
-    words_[i].node->setVisible(true);
-  }
+  for (std::size_t i = 0; i < words_.size(); ++i)
+    words_[i]->show(height, moved(edgeOf(mesh, i), reach(kLabels[i], height)));
   shown_ = true;
 }
 
 void SheetLetters::hide() {
-  for (const Word& word : words_) word.node->setVisible(false);
+  for (const auto& words : words_) words->hide();
   shown_ = false;
 }
 
@@ -120,6 +138,20 @@ std::vector<Vector3> SheetLetters::outline(const SheetMesh& mesh) const {
   for (std::size_t i = 0; shown_ && i < words_.size(); ++i)
     points.push_back(moved(edgeOf(mesh, i), 2 * reach(kLabels[i], heightFor(mesh))));
   return points;
+}
+
+SheetTitle::SheetTitle(Ogre::SceneManager* scene, Ogre::SceneNode* parent)
+    : words_(scene, parent, "-", Ogre::ColourValue::White) {}
+
+double SheetTitle::reach(const fsr::matrix::Layout& layout) {
+  return 0.5 * layout.pitch_y * layout.size.rows + (kTitleGap + kTitleHeight) * longerSide(layout);
+}
+
+void SheetTitle::show(const std::string& text, const fsr::matrix::Layout& layout) {
+  if (text.empty()) return words_.hide();
+  words_.setText(text);
+  const double letter = kTitleHeight * longerSide(layout);
+  words_.show(letter, {0, letter - reach(layout), 0});
 }
 
 }  // namespace fsr_rviz

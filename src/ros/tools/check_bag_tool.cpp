@@ -1,6 +1,7 @@
-#include "ros/tools/check_bag_tool.h"
+#include "ros/tools/tools.h"
 
 #include <algorithm>
+#include <boost/algorithm/string/predicate.hpp>
 #include <optional>
 #include <string>
 #include <utility>
@@ -15,7 +16,6 @@
 #include "report/admission_report.h"
 #include "ros/bags/bag_topics.h"
 #include "ros/bags/bag_walk.h"
-#include "ros/tools/check_calibration_tool.h"
 #include "ros/tools/tool_options.h"
 #include "settings/command_line.h"
 
@@ -42,10 +42,8 @@ fsr::settings::CommandLine checkBagOptions() {
              "check_calibration FILE BAG...")
       .option("sections", "N",
               "sections of the cross-validation for which coverage is judged, 2 to 20; default 5")
-      .option("ambient", "PA", "ambient pressure [Pa]; default: that of matrix_info, or 101325 without one")
-      .option("namespace", "NS", "namespace of the sensor, if a bag holds several")
       .flag("strict", "exit status 1 if the verdict is not good");
-  return line;
+  return addBagOptions(line);
 }
 
 // Remarks about stamps that the reader sorted, and about missing topics that it does not need.
@@ -60,10 +58,7 @@ std::vector<std::string> remarksOn(const std::vector<TopicCourse>& courses) {
        {std::pair{"temperature", "slow drift cannot be distinguished from effects of temperature"},
         std::pair{"session", "the bag does not say to which session it belongs"}}) {
     const std::string end = std::string("/") + base;
-    const auto is_it = [&](const TopicCourse& course) {
-      return course.topic.size() >= end.size() &&
-             course.topic.compare(course.topic.size() - end.size(), end.size(), end) == 0;
-    };
+    const auto is_it = [&](const TopicCourse& course) { return boost::ends_with(course.topic, end); };
     if (std::any_of(courses.begin(), courses.end(), is_it)) continue;
     remarks.push_back(std::string("no topic ") + base + ": " + why);
   }
@@ -75,12 +70,8 @@ int checkChamber(const fsr::settings::CommandLine& line, std::ostream& out) {
   chosen.sections = static_cast<std::size_t>(line.integer("sections", 5, {2, 20, ""}));
   std::vector<fsr::dataset::Recording> recordings;
   for (const std::string& path : line.files()) {
-    {
-      const ToolProgress progress = toolProgress();  // removes its line before the table is printed
-      BagReadOptions how = bagReadOptions(line);
-      how.progress = told("reading " + path, progress);
-      recordings.push_back(readBag(path, how));
-    }
+    // Its progress removes its line before the table is printed.
+    recordings.push_back(readBags(bagReadOptions(line), {path}).front());
     const std::vector<TopicCourse> courses = topicCourses(path);
     std::vector<std::string>& warnings = recordings.back().warnings;
     for (const std::string& remark : remarksOn(courses)) warnings.push_back(remark);
@@ -144,16 +135,10 @@ int checkSockets(const fsr::settings::CommandLine& line, std::ostream& out) {
 
 int checkBagTool(int argc, const char* const* argv, std::ostream& out) {
   fsr::settings::CommandLine line = checkBagOptions();
-  if (!line.parse(argc, argv)) {
-    out << line.help();
-    return 0;
-  }
+  if (!line.parse(argc, argv, out)) return 0;
   if (line.files().empty()) throw fsr::settings::InputError("no BAG is given; see check_bag --help");
-  const std::string use = line.text("use", "chamber");
-  if (use == "socket") return checkSockets(line, out);
-  if (use != "chamber")
-    throw fsr::settings::InputError("--use is '" + use + "', but must be chamber or socket");
-  return checkChamber(line, out);
+  const bool socket = line.choice("use", {"chamber", "socket"}, "chamber") == "socket";
+  return socket ? checkSockets(line, out) : checkChamber(line, out);
 }
 
 }  // namespace fsr_ros

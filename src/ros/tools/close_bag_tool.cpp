@@ -1,4 +1,4 @@
-#include "ros/tools/close_bag_tool.h"
+#include "ros/tools/tools.h"
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "ros/bags/rescue_bag.h"
@@ -12,10 +12,7 @@ int closeBagTool(int argc, const char* const* argv, std::ostream& out) {
       "Closes recordings that were not closed, because the recorder was killed or its disk was full. Each is "
       "cut behind its last whole message, gets its index and is called FILE.bag.\n"
       "Exit status: 0; 1 if a disk has no room for the index; 2 if a file cannot be closed.");
-  if (!line.parse(argc, argv)) {
-    out << line.help();
-    return 0;
-  }
+  if (!line.parse(argc, argv, out)) return 0;
   if (line.files().empty()) throw fsr::settings::InputError("give at least one file to close");
   int status = 0;
   for (const std::string& file : line.files()) {

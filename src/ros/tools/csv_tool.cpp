@@ -1,10 +1,12 @@
-#include "ros/tools/csv_tool.h"
+#include "ros/tools/tools.h"
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <sstream>
 
+#include "dataset/recording_builder.h"
 #include "dataset/table_recording.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "ros/bags/bag_writer.h"
@@ -13,8 +15,6 @@
 namespace fsr_ros {
 
 namespace {
-
-constexpr double kStandardAmbient = 101325;  // [Pa]
 
 fsr::settings::CommandLine commandLine() {
   fsr::settings::CommandLine line(
@@ -71,28 +71,17 @@ std::pair<double, double> twoNumbers(const fsr::settings::CommandLine& line, con
   return {first, second};
 }
 
-char separatorIn(const fsr::settings::CommandLine& line) {
-  const std::string name = line.text("separator", "");
-  const std::vector<std::pair<std::string, char>> known = {
-      {"", '\0'}, {"comma", ','}, {"semicolon", ';'}, {"tab", '\t'}, {"space", ' '}};
-  for (const auto& [word, separator] : known) {
-    if (word == name) return separator;
-  }
-  throw fsr::settings::InputError("--separator is \"" + name +
-                                  "\", but must be comma, semicolon, tab or space");
-}
-
 fsr::dataset::TableFormat formatIn(const fsr::settings::CommandLine& line) {
   fsr::dataset::TableFormat format;
-  format.separator = separatorIn(line);
+  static const std::map<std::string, char> separators = {
+      {"comma", ','}, {"semicolon", ';'}, {"tab", '\t'}, {"space", ' '}};
+  if (line.has("separator"))
+    format.separator = separators.at(line.choice("separator", {"comma", "semicolon", "tab", "space"}, ""));
   format.decimal_comma = line.has("decimal-comma");
   format.skip_lines = static_cast<std::size_t>(line.integer("skip-lines", 0, {0, 1e6, ""}));
-  const std::string header = line.text("header", "");
-  if (header == "yes") format.header = fsr::dataset::TableFormat::Header::kYes;
-  if (header == "no") format.header = fsr::dataset::TableFormat::Header::kNo;
-  if (!header.empty() && header != "yes" && header != "no") {
-    throw fsr::settings::InputError("--header is \"" + header + "\", but must be yes or no");
-  }
+  using Header = fsr::dataset::TableFormat::Header;
+  if (line.has("header"))
+    format.header = line.choice("header", {"yes", "no"}, "") == "yes" ? Header::kYes : Header::kNo;
   return format;
 }
 
@@ -123,7 +112,7 @@ fsr::dataset::TablePlan planFrom(const fsr::settings::CommandLine& line) {
   plan.reference_offset = line.number("reference-offset", 0, {-1e9, 1e9, "s"});
   plan.skip_bad_rows = line.has("skip-bad-rows");
   if (line.has("absolute"))
-    plan.ambient_pressure = line.number("ambient", kStandardAmbient, {3e4, 2e5, "Pa"});
+    plan.ambient_pressure = line.number("ambient", fsr::dataset::kStandardAmbient, {3e4, 2e5, "Pa"});
   if (line.has("curvature")) plan.curvature = line.number("curvature", 0, {-100, 100, "1/m"});
   if (line.has("full-scale")) {
     plan.full_scale = static_cast<std::uint16_t>(line.integer("full-scale", 0, {1, 65535, ""}));
@@ -141,7 +130,7 @@ fsr::dataset::TablePlan planFrom(const fsr::settings::CommandLine& line) {
 BagOptions bagOptions(const fsr::settings::CommandLine& line, const fsr::dataset::ReadingScale& scale) {
   BagOptions options;
   options.topics = line.text("namespace", "fsr");
-  options.ambient_pressure = line.number("ambient", kStandardAmbient, {3e4, 2e5, "Pa"});
+  options.ambient_pressure = line.number("ambient", fsr::dataset::kStandardAmbient, {3e4, 2e5, "Pa"});
   if (scale.unit == "V") options.reference_voltage = std::abs(scale.high - scale.low);
   // The resistance with which the output is full scale at the largest conductance.
   if (scale.unit == "S") options.feedback_resistance = 1 / std::max(scale.low, scale.high);
@@ -172,10 +161,7 @@ void report(const fsr::dataset::TableRecording& table, const std::string& output
 
 int csvToBagTool(int argc, const char* const* argv, std::ostream& out) {
   fsr::settings::CommandLine line = commandLine();
-  if (!line.parse(argc, argv)) {
-    out << line.help();
-    return 0;
-  }
+  if (!line.parse(argc, argv, out)) return 0;
   if (line.files().size() != 1) throw fsr::settings::InputError("give one TABLE; see csv_to_bag --help");
   const std::string output = line.requiredText("output");
   fsr::dataset::TableRecording table = fsr::dataset::readTable(line.files().front(), planFrom(line));

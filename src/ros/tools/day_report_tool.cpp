@@ -1,4 +1,4 @@
-#include "ros/tools/day_report_tool.h"
+#include "ros/tools/tools.h"
 
 #include <filesystem>
 #include <fstream>
@@ -152,10 +152,7 @@ void checkOptions(const fsr::settings::CommandLine& line) {
 
 int dayReportTool(int argc, const char* const* argv, std::ostream& out) {
   fsr::settings::CommandLine line = dayReportOptions();
-  if (!line.parse(argc, argv)) {
-    out << line.help();
-    return 0;
-  }
+  if (!line.parse(argc, argv, out)) return 0;
   if (line.files().size() != 1) {
     throw InputError(line.files().empty() ? "no DIR is given; see day_report --help"
                                           : line.files()[1] + ": give one folder");

@@ -1,4 +1,4 @@
-#include "ros/tools/discrepancy_tool.h"
+#include "ros/tools/tools.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -15,7 +15,6 @@
 #include "ros/bags/bag_walk.h"
 #include "ros/bags/resource_path.h"
 #include "ros/tools/discrepancy_files.h"
-#include "ros/tools/figure_script.h"
 #include "ros/tools/map_gain.h"
 #include "ros/tools/recompute_gap_tool.h"
 #include "ros/tools/show_ledger.h"
@@ -56,37 +55,14 @@ fsr::settings::CommandLine discrepancyOptions() {
       .option("without", "ID,...", "leave these effects out of the library")
       .option("seed", "N", "seed of the split into fit and hold-out cycles, and of the tests (1)")
       .option("threads", "N", "number of threads, 0 = one for each core (0); the results do not depend on it")
-      .option("ambient", "PA", "ambient pressure [Pa]; default: that of matrix_info, or 101325 without one")
-      .option("namespace", "NS", "namespace of the sensor, if a bag holds several")
       .flag("no-report", "do not write report.html and its figures");
-  return line;
-}
-
-std::vector<std::string> listOf(const fsr::settings::CommandLine& line, const std::string& name) {
-  std::vector<std::string> items;
-  std::istringstream text(line.text(name, ""));
-  for (std::string item; std::getline(text, item, ',');) {
-    if (!item.empty()) items.push_back(item);
-  }
-  return items;
+  return addBagOptions(line);
 }
 
 std::vector<std::string> measuredBags(const fsr::settings::CommandLine& line) {
   const std::vector<std::string> bags = bagsIn(line.files());
   if (bags.empty()) throw fsr::settings::InputError("no BAG is given; see discrepancy --help");
   return bags;
-}
-
-// `whole`: with the scans near a change of surface, too.
-std::vector<fsr::dataset::Recording> readDrivingBags(const DrivingBags& bags, bool whole,
-                                              const fsr::discrepancy::DiscrepancyProgress& progress) {
-  std::vector<fsr::dataset::Recording> recordings;
-  for (const std::string& path : bags.paths) {
-    BagReadOptions how = bags.how;
-    how.progress = told("reading " + path, progress);
-    recordings.push_back(whole ? readWhole(path, how) : readBag(path, how));
-  }
-  return recordings;
 }
 
 // Without --simulation: the core simulation with the matrix of the bags.
@@ -99,15 +75,15 @@ fsr::simulation::SimulationSettings simulationFor(const fsr::settings::CommandLi
 
 fsr::discrepancy::DiscrepancyOptions discrepancyOptions(const fsr::settings::CommandLine& line) {
   fsr::discrepancy::DiscrepancyOptions chosen;
-  chosen.ask = listOf(line, "ask");
-  chosen.leave_out = listOf(line, "without");
+  chosen.ask = line.list("ask");
+  chosen.leave_out = line.list("without");
   chosen.repeat = line.has("repeat");
   if (line.has("least-gap")) {
     constexpr double kKilopascal = 1e3;  // [Pa]
     chosen.least_gap = kKilopascal * line.number("least-gap", 0, {0, 1e4, "kPa"});
   }
   chosen.seed = static_cast<std::uint64_t>(line.integer("seed", 1, {0, 9e15, ""}));
-  chosen.threads = static_cast<unsigned>(line.integer("threads", 0, {0, 1024, ""}));
+  chosen.threads = threadsOf(line);
   return chosen;
 }
 
@@ -120,14 +96,9 @@ void countUses(fsr::discrepancy::DiscrepancyReport& report) {
 }
 
 int drawReport(const std::string& folder, std::ostream& out) {
-  try {
-    drawFigures("discrepancy.py", {folder});
-  } catch (const fsr::settings::InputError& error) {
-    out << error.what() << std::endl;
-    return kFiguresMissing;
-  }
-  out << "Report: " << folder << "/report.html" << std::endl;
-  return 0;
+  const int status = figuresDrawn("discrepancy.py", {folder}, out);
+  if (status == 0) out << "Report: " << folder << "/report.html" << std::endl;
+  return status;
 }
 
 // The command that recomputes the gap of the verdict in a folder. The files that are written may go to other
@@ -163,10 +134,10 @@ int find(const fsr::settings::CommandLine& line, std::ostream& out) {
   fsr::discrepancy::DiscrepancyProblem problem;
   problem.options = discrepancyOptions(line);
   const DrivingBags bags{measuredBags(line), bagReadOptions(line)};
-  problem.recordings = readDrivingBags(bags, false, progress);
+  problem.recordings = readBags(bags.how, bags.paths, progress);
   const bool changes = std::any_of(problem.recordings.begin(), problem.recordings.end(),
                                    [](const auto& recording) { return recording.losses.near_change > 0; });
-  if (changes) problem.whole = readDrivingBags(bags, true, progress);
+  if (changes) problem.whole = readBags(bags.how, bags.paths, progress, true);
   problem.simulation = simulationFor(line, problem.recordings.front());
   fsr::discrepancy::DiscrepancyReport report = fsr::discrepancy::investigate(problem, progress);
   if (report.verdict == fsr::discrepancy::Verdict::kNone) requireChamber(bags);
@@ -216,8 +187,7 @@ int confirmVerdict(const fsr::settings::CommandLine& line, std::ostream& out) {
     throw fsr::settings::InputError(path + ": its verdict is " + verdict.verdict +
                                     ", which predicts nothing that can be confirmed");
   }
-  const std::vector<fsr::dataset::Recording> recordings =
-      readDrivingBags({measuredBags(line), bagReadOptions(line)}, false, toolProgress());
+  const std::vector<fsr::dataset::Recording> recordings = readBags(bagReadOptions(line), measuredBags(line));
   requireNew(recordings, verdict, stored.frozen.readings_sha256, path);
   fsr::discrepancy::Confirmation answer =
       fsr::discrepancy::confirm(stored.frozen.prediction, stored.base, recordings);
@@ -250,10 +220,7 @@ std::vector<const char*> withoutRemappings(int argc, const char* const* argv) {
 int discrepancyTool(int argc, const char* const* argv, std::ostream& out) {
   fsr::settings::CommandLine line = discrepancyOptions();
   const std::vector<const char*> words = withoutRemappings(argc, argv);
-  if (!line.parse(static_cast<int>(words.size()), words.data())) {
-    out << line.help();
-    return 0;
-  }
+  if (!line.parse(static_cast<int>(words.size()), words.data(), out)) return 0;
   const int status = line.has("confirm") ? confirmVerdict(line, out) : find(line, out);
   const bool launched = words.size() < static_cast<std::size_t>(argc);
   if (launched)

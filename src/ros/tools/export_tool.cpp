@@ -1,4 +1,4 @@
-#include "ros/tools/export_tool.h"
+#include "ros/tools/tools.h"
 
 #include <filesystem>
 #include <iomanip>
@@ -32,10 +32,8 @@ fsr::settings::CommandLine options(const std::vector<ScanFormat>& formats) {
       .option("from", "S", "start, in seconds since the first scan (0)")
       .option("until", "S", "end, in seconds since the first scan (all)")
       .option("rate", "HZ", "largest number of scans a second (all)")
-      .option("map", "TOPIC", "topic of the maps, if a bag holds several (pressure_map)")
-      .option("ambient", "PA", "ambient pressure [Pa]; default: that of matrix_info, or 101325 without one")
-      .option("namespace", "NS", "namespace of the sensor, if a bag holds several");
-  return line;
+      .option("map", "TOPIC", "topic of the maps, if a bag holds several (pressure_map)");
+  return addBagOptions(line);
 }
 
 ScanSelection selectionOf(const fsr::settings::CommandLine& line) {
@@ -73,26 +71,18 @@ void writeScans(const ScanFormat& format, const fsr::settings::CommandLine& line
   out << scans << " scans written to " << fullPath(line.text("output", "")) << std::endl;
 }
 
-const ScanFormat& formatOf(const std::string& name, const std::vector<ScanFormat>& formats) {
-  std::string names;
-  for (const ScanFormat& format : formats) {
-    if (format.name == name) return format;
-    names += (names.empty() ? "" : ", ") + format.name;
-  }
-  throw fsr::settings::InputError("--to is \"" + name + "\", but must be one of " + names);
-}
-
 }  // namespace
 
 int exportTool(int argc, const char* const* argv, std::ostream& out, const std::vector<ScanFormat>& formats) {
   fsr::settings::CommandLine line = options(formats);
-  if (!line.parse(argc, argv)) {
-    out << line.help();
-    return 0;
-  }
-  const ScanFormat& format = formatOf(line.requiredText("to"), formats);
+  if (!line.parse(argc, argv, out)) return 0;
+  std::vector<std::string> names;
+  for (const ScanFormat& format : formats) names.push_back(format.name);
+  const std::string name = line.choice("to", names, line.requiredText("to"));
   if (line.files().empty()) throw fsr::settings::InputError("give at least one BAG; see export --help");
-  writeScans(format, line, out);
+  for (const ScanFormat& format : formats) {
+    if (format.name == name) writeScans(format, line, out);
+  }
   return 0;
 }
 

@@ -5,8 +5,8 @@
 
 #include "fsr_pressure_map/calibration/calibration.h"
 #include "fsr_pressure_map/settings/input_error.h"
-#include "ros/tools/history_option.h"
 #include "settings/number_text.h"
+#include "simulation/effects/effect_library.h"
 
 namespace fsr_ros {
 
@@ -60,6 +60,18 @@ std::string temperatureGain(const fsr::calibration::Calibration& calibration) {
 }
 
 }  // namespace
+
+HistoryFamily historyFamilyOf(const std::vector<std::string>& effects) {
+  bool plays = false, memories = false;
+  for (const fsr::simulation::EffectEntry& entry : fsr::simulation::effectLibrary()) {
+    if (std::find(effects.begin(), effects.end(), entry.info.id) == effects.end()) continue;
+    plays |= dependsOn(entry.info, fsr::simulation::Covariate::kPreviousExtremes);
+    memories |= dependsOn(entry.info, fsr::simulation::Covariate::kTimeSinceReversal);
+  }
+  if (plays && memories) return HistoryFamily::kBoth;
+  if (plays) return HistoryFamily::kPlays;
+  return memories ? HistoryFamily::kMemories : HistoryFamily::kNone;
+}
 
 std::string mapGain(const std::vector<fsr::dataset::Recording>& recordings,
                     const std::vector<std::string>& effects, unsigned threads) {

@@ -1,7 +1,6 @@
-#include "ros/tools/plan_session_tool.h"
+#include "ros/tools/tools.h"
 
 #include <filesystem>
-#include <sstream>
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "ros/bags/resource_path.h"
@@ -50,26 +49,9 @@ std::string surfaceFolderOf(const fsr::settings::CommandLine& line) {
                                     : resolveResource(SurfaceFolder::shipped());
 }
 
-std::vector<std::string> namesIn(const fsr::settings::CommandLine& line) {
-  std::vector<std::string> names;
-  std::istringstream list(line.text("surfaces", kSurfaces));
-  for (std::string name; std::getline(list, name, ',');) names.push_back(name);
-  return names;
-}
-
-plans::Purpose purposeIn(const fsr::settings::CommandLine& line) {
-  const std::string purpose = line.requiredText("for");
-  std::string known;
-  for (const std::string& one : plans::purposeNames()) {
-    if (one == purpose) return plans::purposeCalled(one);
-    known += (known.empty() ? "" : ", ") + one;
-  }
-  throw InputError("--for is \"" + purpose + "\", but must be one of " + known);
-}
-
 plans::PlanRequest requestIn(const fsr::settings::CommandLine& line) {
   plans::PlanRequest request;
-  request.purpose = purposeIn(line);
+  request.purpose = plans::purposeCalled(line.choice("for", plans::purposeNames(), line.requiredText("for")));
   line.requiredText("minutes");
   request.time = 60 * line.number("minutes", 0, {0, 10080, "min"});
   request.chamber_limit = 1e3 * line.number("chamber-limit", request.chamber_limit / 1e3,
@@ -84,16 +66,10 @@ plans::PlanRequest requestIn(const fsr::settings::CommandLine& line) {
   request.matrix.columns =
       static_cast<std::uint16_t>(line.integer("columns", 10, {1, fsr::matrix::kMaxMatrixSide, ""}));
   const std::string folder = surfaceFolderOf(line);
-  for (const std::string& name : namesIn(line))
+  for (const std::string& name : line.list("surfaces", kSurfaces))
     request.surfaces.push_back(
         plans::surfaceInFolder(name, folder, request.matrix, "--surfaces names \"" + name + "\""));
   return request;
-}
-
-std::vector<std::string> remarksOn(const plans::ProposedPlan& proposed) {
-  std::vector<std::string> remarks = {plans::headline(proposed.plan) + ".",
-                                      "Written by plan_session. `plan_session FILE` describes it."};
-  return remarks;
 }
 
 void describe(const plans::SessionPlan& plan, const fsr::settings::CommandLine& line, std::ostream& out) {
@@ -106,7 +82,10 @@ void propose(const fsr::settings::CommandLine& line, std::ostream& out) {
   const plans::PlanRequest request = requestIn(line);
   plans::ProposedPlan proposed = plans::proposePlan(request);
   proposed.plan.name = std::filesystem::path(output).stem().string();
-  fsr::settings::replaceFile(output, plans::planText(proposed.plan, remarksOn(proposed)));
+  fsr::settings::replaceFile(output,
+                             plans::planText(proposed.plan, {plans::headline(proposed.plan) + ".",
+                                                             "Written by plan_session. `plan_session FILE` "
+                                                             "describes it."}));
   describe(proposed.plan, line, out);
   const double cut = plans::sessionDuration(proposed.whole) - plans::sessionDuration(proposed.plan);
   if (cut > 0) {
@@ -123,20 +102,14 @@ void propose(const fsr::settings::CommandLine& line, std::ostream& out) {
 
 int planSessionTool(int argc, const char* const* argv, std::ostream& out) {
   fsr::settings::CommandLine line = planSessionOptions();
-  if (!line.parse(argc, argv)) {
-    out << line.help();
-    return 0;
-  }
+  if (!line.parse(argc, argv, out)) return 0;
   if (line.files().empty()) {
     propose(line, out);
     return 0;
   }
   if (line.files().size() > 1) throw InputError(line.files()[1] + ": give one plan; see plan_session --help");
-  for (const char* writes : {"for", "minutes", "output"}) {
-    if (!line.has(writes)) continue;
-    throw InputError("--" + std::string(writes) + " is for writing a plan, but " + line.files().front() +
-                     " is one that exists; give either of them");
-  }
+  line.refuse({"for", "minutes", "output"}, "is for writing a plan, but " + line.files().front() +
+                                                " is one that exists; give either of them");
   const std::string folder = line.has("surface-folder") ? line.text("surface-folder", "") : "";
   describe(plans::readPlanFile(line.files().front(), folder), line, out);
   return 0;

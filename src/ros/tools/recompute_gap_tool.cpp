@@ -20,16 +20,6 @@ namespace fs = std::filesystem;
 
 constexpr int kDigits = 8;
 
-std::vector<fsr::dataset::Recording> readAll(const DrivingBags& bags, const ToolProgress& progress) {
-  std::vector<fsr::dataset::Recording> recordings;
-  for (const std::string& path : bags.paths) {
-    BagReadOptions how = bags.how;
-    how.progress = told("reading " + path, progress);
-    recordings.push_back(readWhole(path, how));
-  }
-  return recordings;
-}
-
 // A sheet remembers every bag, so all of them are needed.
 void requireAll(const std::vector<fsr::dataset::Recording>& recordings,
                 const fsr::report::VerdictFile& verdict, const std::string& path) {
@@ -51,13 +41,14 @@ void requireAll(const std::vector<fsr::dataset::Recording>& recordings,
 }
 
 // The bags of the verdict. A folder may hold other bags beside them.
-DrivingBags bagsOfVerdict(const DrivingBags& given, const fsr::report::VerdictFile& verdict) {
-  DrivingBags bags{{}, given.how};
-  for (const std::string& path : given.paths) {
+std::vector<std::string> bagsOfVerdict(const std::vector<std::string>& given,
+                                       const fsr::report::VerdictFile& verdict) {
+  std::vector<std::string> bags;
+  for (const std::string& path : given) {
     for (const std::string& bag : bagsIn({path})) {
       const auto is_it = [&](const auto& input) { return input.file == fs::path(bag).filename(); };
       if (bag == path || std::any_of(verdict.inputs.begin(), verdict.inputs.end(), is_it))
-        bags.paths.push_back(bag);
+        bags.push_back(bag);
     }
   }
   return bags;
@@ -82,7 +73,7 @@ int printRecomputedGap(const std::string& path, const DrivingBags& bags, std::os
   if (verdict.hold_out.empty())
     throw fsr::settings::InputError(path + ": nothing was held out, so there is no gap to recompute");
   const std::vector<fsr::dataset::Recording> recordings =
-      readAll(bagsOfVerdict(bags, verdict), toolProgress());
+      readBags(bags.how, bagsOfVerdict(bags.paths, verdict), toolProgress(), true);
   requireAll(recordings, verdict, path);
   const fs::path folder = fs::absolute(path).parent_path();
   const std::pair<const char*, bool> files[] = {{"base.yaml", false}, {"simulation.yaml", true}};

@@ -1,4 +1,4 @@
-#include "ros/tools/scrub_tool.h"
+#include "ros/tools/tools.h"
 
 #include <fsr_pressure_map/Event.h>
 #include <fsr_pressure_map/MatrixFrame.h>
@@ -158,10 +158,7 @@ int scrubTool(int argc, const char* const* argv, std::ostream& out) {
       "2000-01-01. "
       "Prints what was removed, and the texts that were kept.");
   line.output("output", "BAG", "bag to write");
-  if (!line.parse(argc, argv)) {
-    out << line.help();
-    return 0;
-  }
+  if (!line.parse(argc, argv, out)) return 0;
   const std::string output = line.requiredText("output");
   if (line.files().size() != 1)
     throw fsr::settings::InputError("give one bag, and --output with another name");

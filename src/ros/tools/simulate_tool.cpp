@@ -1,4 +1,4 @@
-#include "ros/tools/simulate_tool.h"
+#include "ros/tools/tools.h"
 
 #include <filesystem>
 #include <functional>
@@ -7,10 +7,8 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "report/effect_list.h"
-#include "report/portrait_json.h"
 #include "report/shard_file.h"
 #include "ros/bags/simulated_bags.h"
-#include "ros/tools/figure_script.h"
 #include "ros/tools/recompute_gap_tool.h"
 #include "ros/tools/tool_options.h"
 #include "session/plan_file.h"
@@ -53,8 +51,6 @@ fsr::settings::CommandLine simulateOptions() {
              "it; writes nothing")
       .input("plan", "FILE",
              "run the surfaces and the program of this plan (plan_session) instead of the session")
-      .option("ambient", "PA", "ambient pressure [Pa]; default: that of matrix_info, or 101325 without one")
-      .option("namespace", "NS", "namespace of the sensor, if a bag holds several")
       .option("seed", "N", "seed instead of the file's: another sheet and other noise")
       .option("sheets", "N", "simulate N sheets, of the seeds from --seed on, each in a folder sheet_SEED")
       .option("shard", "I/N",
@@ -66,7 +62,7 @@ fsr::settings::CommandLine simulateOptions() {
       .output("save-state", "FILE", "save the state of the sheet at the end")
       .flag("plot", "draw the effects of the rig, or --effect alone, instead of writing bags")
       .flag("list-effects", "describe every effect, or --effect alone, and exit");
-  return line;
+  return addBagOptions(line);
 }
 
 // The session of a plan instead of that of the simulation.
@@ -202,16 +198,6 @@ std::string sha256OfText(const std::string& text) {
   return fsr::settings::sha256(text.data(), text.size());
 }
 
-// What a run with --sheets or --shard needs: bags of a session of a new sheet.
-void refuseOtherRuns(const fsr::settings::CommandLine& line) {
-  for (const char* const option : {"drive", "state", "save-state", "plot", "gap"}) {
-    if (!line.has(option)) continue;
-    throw fsr::settings::InputError("--" + std::string(option) + " cannot be used with --" +
-                                    (line.has("sheets") ? "sheets" : "shard") +
-                                    ", which writes the sessions of new sheets");
-  }
-}
-
 // Writes the session of one sheet: the bags that `wanted` chooses. Adds their SHA-256 to `files`.
 void writeSheet(const fsr::simulation::SimulationSettings& settings, const fs::path& top,
                 const fs::path& folder, const std::function<bool(std::size_t)>& wanted,
@@ -241,7 +227,9 @@ void writeSheet(const fsr::simulation::SimulationSettings& settings, const fs::p
 // The sessions of one sheet or several, or those of a shard.
 void writeSheets(const fsr::settings::CommandLine& line, const fsr::simulation::SimulationSettings& settings,
                  std::ostream& out) {
-  refuseOtherRuns(line);
+  line.refuse({"drive", "state", "save-state", "plot", "gap"},
+              std::string("cannot be used with --") + (line.has("sheets") ? "sheets" : "shard") +
+                  ", which writes the sessions of new sheets");
   drivingBags(line);  // refuses bags without --drive
   const auto sheets = static_cast<std::size_t>(line.integer("sheets", 1, {1, 1e6, ""}));
   fsr::report::ShardFile file{"simulate", {}, {}, {}, {}};
@@ -288,14 +276,9 @@ int drawPlot(const fsr::settings::CommandLine& line, const fsr::simulation::Simu
   line.requireWritable(data);
   fsr::settings::replaceFile(data, fsr::report::portraitJson(portrait));
   out << data.string() << std::endl;
-  try {
-    drawFigures("simulation.py", {data, stem});
-  } catch (const fsr::settings::InputError& error) {
-    out << error.what() << std::endl;
-    return kFiguresMissing;
-  }
-  out << stem.string() + ".png" << std::endl << stem.string() + ".pdf" << std::endl;
-  return 0;
+  const int status = figuresDrawn("simulation.py", {data, stem}, out);
+  if (status == 0) out << stem.string() + ".png" << std::endl << stem.string() + ".pdf" << std::endl;
+  return status;
 }
 
 std::string listOf(const std::string& id) {
@@ -311,10 +294,7 @@ std::string listOf(const std::string& id) {
 
 int simulateTool(int argc, const char* const* argv, std::ostream& out) {
   fsr::settings::CommandLine line = simulateOptions();
-  if (!line.parse(argc, argv)) {
-    out << line.help();
-    return 0;
-  }
+  if (!line.parse(argc, argv, out)) return 0;
   if (line.has("list-effects")) {
     out << listOf(line.text("effect", ""));
     return 0;

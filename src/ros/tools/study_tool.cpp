@@ -1,15 +1,18 @@
-#include "ros/tools/study_tool.h"
-
 #include <filesystem>
 #include <iostream>
+#include <map>
+#include <ostream>
+#include <string>
+#include <vector>
 
 #include "fsr_pressure_map/ros/bag_reader.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "report/shard_file.h"
+#include "report/study/study_parts_file.h"
 #include "report/study/study_report.h"
 #include "ros/bags/bag_walk.h"
-#include "ros/tools/figure_script.h"
-#include "ros/tools/study_shards.h"
 #include "ros/tools/tool_options.h"
+#include "ros/tools/tools.h"
 #include "settings/command_line.h"
 #include "settings/file_kind.h"
 #include "settings/replace_file.h"
@@ -17,12 +20,85 @@
 #include "simulation/session.h"
 #include "simulation/settings_text.h"
 #include "study/study.h"
+#include "study/study_pieces.h"
 
 namespace fsr_ros {
 
 namespace {
 
 namespace fs = std::filesystem;
+using fsr::report::FoundShard;
+using fsr::report::Shard;
+using fsr::settings::InputError;
+using fsr::study::StudyParts;
+
+// A shard of a study: where it is written and what must be alike in all shards.
+struct StudyShard {
+  fsr::report::Shard shard;
+  std::string folder;
+  std::map<std::string, std::string> options;  // besides the plan and the recordings
+
+  // The file that the shard writes last.
+  std::string path() const { return fs::path(folder) / fsr::report::shardFileName(shard); }
+};
+
+constexpr char kTool[] = "study";
+
+std::string piecesFileName(const Shard& shard) {
+  return "pieces_" + std::to_string(shard.number) + "_of_" + std::to_string(shard.of) + ".json";
+}
+
+// The recordings in their order, which changes the numbers.
+void addRecordings(const StudyParts& parts, std::map<std::string, std::string>& options) {
+  std::size_t number = 0;
+  for (const fsr::calibration::SourceBag& bag : parts.frame.provenance.bags) {
+    options["recording " + std::to_string(++number)] =
+        bag.sha256.empty() ? bag.name : bag.name + " (SHA-256 " + bag.sha256 + ")";
+  }
+}
+
+// Throws unless the pieces are those that the shard has to compute.
+void requireOwnPieces(const std::string& path, const Shard& shard, const StudyParts& parts) {
+  std::size_t own = 0;
+  for (std::size_t i = 0; i < parts.pieces_of_study; ++i) own += shard.has(i);
+  for (const auto& [number, piece] : parts.computed)
+    if (!shard.has(number) || number >= parts.pieces_of_study) own = parts.computed.size() + 1;
+  if (own != parts.computed.size())
+    throw InputError(path + ": does not have the pieces of shard " + std::to_string(shard.number) + " of " +
+                     std::to_string(shard.of) + "; run this shard again");
+}
+
+// Writes the pieces, and then the file of the shard.
+void writeStudyShard(const StudyShard& shard, const StudyParts& parts, std::ostream& out) {
+  const std::string name = piecesFileName(shard.shard), content = fsr::report::studyPartsJson(parts);
+  fsr::report::ShardFile file{kTool, {}, shard.shard, shard.options, {}};
+  file.options.merge(fsr::report::studyOptions(parts.frame.plan));
+  addRecordings(parts, file.options);
+  file.files[name] = fsr::settings::sha256(content.data(), content.size());
+  fsr::settings::replaceFile(fs::path(shard.folder) / name, content);
+  fsr::settings::replaceFile(shard.path(), fsr::report::shardJson(file));
+  out << parts.computed.size() << " of " << parts.pieces_of_study << " pieces of the study written to "
+      << shard.path() << std::endl;
+}
+
+// All pieces of the study, from the files of all of its shards. Throws InputError if they do not belong
+// together, with one sentence that names the file. The date is that of the first shard.
+StudyParts readStudyShards(const std::vector<std::string>& paths) {
+  StudyParts all;
+  std::string first;
+  for (const FoundShard& found : fsr::report::readShards(paths, kTool)) {
+    const std::string path = fs::path(found.path).parent_path() / piecesFileName(found.file.shard);
+    StudyParts parts = fsr::report::readStudyParts(path);
+    requireOwnPieces(path, found.file.shard, parts);
+    if (first.empty()) {
+      first = path;
+      all = std::move(parts);
+    } else {
+      fsr::report::addStudyParts(std::move(parts), path, first, all);
+    }
+  }
+  return all;
+}
 
 fsr::settings::CommandLine studyOptions() {
   fsr::settings::CommandLine line(
@@ -36,8 +112,6 @@ fsr::settings::CommandLine studyOptions() {
       .input("simulation", "FILE", "simulate these recordings, e.g. config/simulation/paper.yaml")
       .option("simulation-seed", "N", "seed instead of the simulation's: another sheet and other noise")
       .input("plan", "FILE", "settings of the study, e.g. config/study/paper.yaml, which has the defaults")
-      .option("ambient", "PA", "ambient pressure [Pa]; default: that of matrix_info, or 101325 without one")
-      .option("namespace", "NS", "namespace of the sensor, if a bag holds several")
       .option("seed", "N", "seed of down-sampling, forest and bootstrap; default: the plan's")
       .option("threads", "N",
               "number of threads; default: one for each core; the results do not depend on it")
@@ -48,7 +122,7 @@ fsr::settings::CommandLine studyOptions() {
               "docs/many_machines.md")
       .flag("merge",
             "write the results from the files of all shards (shard_I_of_N.json), default: those in --output");
-  return line;
+  return addBagOptions(line);
 }
 
 fsr::study::StudyPlan planOf(const fsr::settings::CommandLine& line) {
@@ -86,11 +160,7 @@ fsr::study::StudyProblem problemOf(const fsr::settings::CommandLine& line, const
   }
   for (const char* const option : {"ambient", "namespace"})
     shard.options["--" + std::string(option)] = line.text(option, "not given");
-  BagReadOptions reading = bagReadOptions(line);
-  for (const std::string& path : line.files()) {
-    reading.progress = told("reading " + path, progress);
-    problem.recordings.push_back(readBag(path, reading));
-  }
+  problem.recordings = readBags(bagReadOptions(line), line.files(), progress);
   return problem;
 }
 
@@ -102,18 +172,11 @@ void write(const fs::path& folder, const fsr::study::StudyResult& result) {
   }
 }
 
-// What the shards have stored cannot be given again.
-void refuseWithMerge(const fsr::settings::CommandLine& line) {
-  for (const char* const option :
-       {"shard", "simulation", "simulation-seed", "plan", "ambient", "namespace", "seed", "paper-only"}) {
-    if (!line.has(option)) continue;
-    throw fsr::settings::InputError("--" + std::string(option) +
-                                    " cannot be used with --merge, which takes all settings from the shards");
-  }
-}
-
 fsr::study::StudyResult merged(const fsr::settings::CommandLine& line) {
-  refuseWithMerge(line);
+  // What the shards have stored cannot be given again.
+  line.refuse(
+      {"shard", "simulation", "simulation-seed", "plan", "ambient", "namespace", "seed", "paper-only"},
+      "cannot be used with --merge, which takes all settings from the shards");
   const std::string folder = line.requiredText("output");
   fsr::study::StudyParts parts =
       readStudyShards(line.files().empty() ? fsr::report::shardsIn(folder) : line.files());
@@ -144,10 +207,7 @@ void writeShard(const fsr::settings::CommandLine& line, StudyShard& shard, std::
 
 int studyTool(int argc, const char* const* argv, std::ostream& out) {
   fsr::settings::CommandLine line = studyOptions();
-  if (!line.parse(argc, argv)) {
-    out << line.help();
-    return 0;
-  }
+  if (!line.parse(argc, argv, out)) return 0;
   StudyShard shard;
   if (line.has("shard") && !line.has("merge")) {
     writeShard(line, shard, out);
@@ -161,14 +221,9 @@ int studyTool(int argc, const char* const* argv, std::ostream& out) {
   write(folder, result);
   out << "\nResults written to " << (folder / "results.json").string() << '\n';
   if (line.has("no-figures")) return 0;
-  try {
-    drawFigures("study.py", {folder.string()});
-  } catch (const fsr::settings::InputError& error) {
-    std::cerr << "study: the figures are missing: " << error.what() << std::endl;
-    return kFiguresMissing;
-  }
-  out << "Report written to " << (folder / "report.html").string() << std::endl;
-  return 0;
+  const int status = figuresDrawn("study.py", {folder.string()}, std::cerr);
+  if (status == 0) out << "Report written to " << (folder / "report.html").string() << std::endl;
+  return status;
 }
 
 }  // namespace fsr_ros

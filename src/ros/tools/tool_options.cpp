@@ -1,5 +1,11 @@
 #include "ros/tools/tool_options.h"
 
+#include <ros/package.h>
+#include <boost/filesystem/operations.hpp>
+#include <boost/process/args.hpp>
+#include <boost/process/child.hpp>
+#include <boost/process/io.hpp>
+
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
@@ -8,6 +14,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "ros/bags/bag_walk.h"
+#include "ros/bags/simulated_bags.h"
 #include "settings/progress.h"
 
 namespace fsr_ros {
@@ -57,6 +64,12 @@ std::string shellWord(const std::string& word) {
   return result + "'";
 }
 
+fsr::settings::CommandLine& addBagOptions(fsr::settings::CommandLine& line) {
+  return line
+      .option("ambient", "PA", "ambient pressure [Pa]; default: that of matrix_info, or 101325 without one")
+      .option("namespace", "NS", "namespace of the sensor, if a bag holds several");
+}
+
 BagReadOptions bagReadOptions(const fsr::settings::CommandLine& line) {
   BagReadOptions how;
   how.counts_in_memory = kCountsInMemory;
@@ -65,16 +78,25 @@ BagReadOptions bagReadOptions(const fsr::settings::CommandLine& line) {
   return how;
 }
 
-std::vector<fsr::dataset::Recording> readBags(const fsr::settings::CommandLine& line,
-                                              const std::vector<std::string>& bags) {
-  BagReadOptions options = bagReadOptions(line);
-  const ToolProgress progress = toolProgress();
+std::vector<fsr::dataset::Recording> readBags(const BagReadOptions& how, const std::vector<std::string>& bags,
+                                              const ToolProgress& progress, bool whole) {
+  BagReadOptions options = how;
   std::vector<fsr::dataset::Recording> recordings;
   for (const std::string& bag : bags) {
     options.progress = told("reading " + bag, progress);
-    recordings.push_back(readBag(bag, options));
+    recordings.push_back(whole ? readWhole(bag, options) : readBag(bag, options));
   }
   return recordings;
+}
+
+int figuresDrawn(const std::string& script, const std::vector<std::string>& arguments, std::ostream& out) {
+  try {
+    drawFigures(script, arguments);
+    return 0;
+  } catch (const fsr::settings::InputError& error) {
+    out << error.what() << std::endl;
+    return kFiguresMissing;
+  }
 }
 
 std::vector<std::string> bagsIn(const std::vector<std::string>& paths) {
@@ -93,6 +115,52 @@ std::vector<std::string> bagsIn(const std::vector<std::string>& paths) {
     bags.insert(bags.end(), inside.begin(), inside.end());
   }
   return bags;
+}
+
+namespace {
+
+// Debian's python, whose matplotlib comes as a package. Another python may come first in PATH.
+constexpr char kPython[] = "/usr/bin/python3";
+
+// The last line that is not empty. If python fails, this line holds the reason.
+std::string lastLine(std::istream& lines) {
+  std::string line, last;
+  while (std::getline(lines, line)) {
+    if (line.find_first_not_of(" \t") != std::string::npos) last = line;
+  }
+  return last;
+}
+
+}  // namespace
+
+void runPython(const std::string& path, const std::vector<std::string>& arguments) {
+  namespace process = boost::process;
+  if (!boost::filesystem::exists(path)) throw fsr::settings::InputError(path + ": there is no such script");
+  std::vector<std::string> words = {path};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  process::ipstream output;
+  std::error_code failed;
+  process::child python(kPython, process::args(words), (process::std_out & process::std_err) > output,
+                        process::std_in < process::null, failed);
+  if (failed)
+    throw fsr::settings::InputError(std::string(kPython) + " cannot be started: " + failed.message());
+  const std::string reason = lastLine(output);
+  python.wait();
+  if (python.exit_code() == 0) return;
+  throw fsr::settings::InputError(
+      "the figures were not drawn: " + path + ": " +
+      (reason.empty() ? "exit status " + std::to_string(python.exit_code()) : reason));
+}
+
+void drawFigures(const std::string& script, const std::vector<std::string>& arguments) {
+  const std::string package = ros::package::getPath("fsr_pressure_map");
+  if (package.empty()) {
+    throw fsr::settings::InputError(
+        "the figures were not drawn: ROS_PACKAGE_PATH does not contain fsr_pressure_map; source the "
+        "setup.bash of its "
+        "workspace");
+  }
+  runPython(package + "/scripts/figures/" + script, arguments);
 }
 
 }  // namespace fsr_ros

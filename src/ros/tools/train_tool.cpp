@@ -1,7 +1,7 @@
-#include "ros/tools/train_tool.h"
+#include "ros/tools/tools.h"
 
+#include <algorithm>
 #include <filesystem>
-#include <iostream>
 
 #include "calibration/merge.h"
 #include "calibration/stages/deviation/conditioning_line.h"
@@ -10,13 +10,12 @@
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "fsr_pressure_map/ros/bag_reader.h"
 #include "fsr_pressure_map/settings/input_error.h"
-#include "regression/regressors.h"
 #include "report/budget_report.h"
 #include "report/calibration_report.h"
+#include "report/verdict_file.h"
 #include "ros/bags/bag_topics.h"
-#include "ros/bags/bag_walk.h"
-#include "ros/tools/check_calibration_tool.h"
-#include "ros/tools/history_option.h"
+#include "ros/bags/training_options.h"
+#include "ros/tools/map_gain.h"
 #include "ros/tools/tool_options.h"
 #include "settings/command_line.h"
 #include "settings/file_kind.h"
@@ -26,6 +25,8 @@
 namespace fsr_ros {
 
 namespace {
+
+using fsr::calibration::HistoryFamily;
 
 fsr::settings::CommandLine trainOptions() {
   fsr::settings::CommandLine line(
@@ -54,8 +55,6 @@ fsr::settings::CommandLine trainOptions() {
       .option("transducer", "PA",
               "standard uncertainty of the chamber's transducer, with its constant error, for the error "
               "budget [Pa]; default: not assessed")
-      .option("ambient", "PA", "ambient pressure [Pa]; default: that of matrix_info, or 101325 without one")
-      .option("namespace", "NS", "namespace of the sensor, if a bag holds several")
       .option(
           "bandwidth", "SIGMA",
           "bandwidth of the GRNN in standard deviations of the readings (paper: 0.0078125); default auto: "
@@ -79,64 +78,78 @@ fsr::settings::CommandLine trainOptions() {
       .flag("no-scores", "do not compute the cross-validated scores")
       .flag("details", "print all tables of the training, not one screen; the file holds them in any case")
       .output("report", "FILE", "also write coverage, scores and provenance as JSON");
-  return line;
+  return addBagOptions(line);
 }
 
-// Throws if an option of another model is given, because it would have no effect.
+// Options of another model would have no effect.
 void refuseOptionsOfOthers(const fsr::settings::CommandLine& line, const std::string& model) {
-  const std::vector<std::pair<std::string, std::string>> options = {
-      {"bandwidth", "grnn"}, {"spread", "grnn"},         {"distance", "grnn"},   {"equal-bins", "grnn"},
-      {"trees", "forest"},   {"minimum-leaf", "forest"}, {"leaf-rule", "forest"}};
-  for (const auto& [option, of] : options) {
-    if (line.has(option) && of != model) {
-      throw fsr::settings::InputError("--" + option + " is an option of --model " + of +
-                                      ", but the model is " + model);
+  const auto of = [&](const std::string& other) {
+    return "is an option of --model " + other + ", but the model is " + model;
+  };
+  if (model != "grnn") line.refuse({"bandwidth", "spread", "distance", "equal-bins"}, of("grnn"));
+  if (model != "forest") line.refuse({"trees", "minimum-leaf", "leaf-rule"}, of("forest"));
+}
+
+// The words of the tool by the names of the node's parameters.
+struct TrainingWords {
+  const fsr::settings::CommandLine& line;
+
+  static std::string option(std::string name) {
+    std::replace(name.begin(), name.end(), '_', '-');
+    return name;
+  }
+  std::string text(const std::string& name, const std::string& fallback) const {
+    return line.text(option(name), fallback);
+  }
+  std::string choice(const std::string& name, const std::vector<std::string>& choices,
+                     const std::string& fallback) const {
+    return line.choice(option(name), choices, fallback);
+  }
+  std::int64_t integer(const std::string& name, std::int64_t fallback,
+                       const fsr::settings::Range& range) const {
+    return line.integer(option(name), fallback, range);
+  }
+  bool flag(const std::string& name, bool fallback) const { return line.has(option(name)) || fallback; }
+};
+
+fsr::calibration::ZeroChoice zeroChoice(const fsr::settings::CommandLine& line) {
+  const std::string zero = line.choice("zero", {"auto", "none", "session"}, "auto");
+  if (zero == "auto") return fsr::calibration::ZeroChoice::kAuto;
+  return zero == "none" ? fsr::calibration::ZeroChoice::kNone : fsr::calibration::ZeroChoice::kSession;
+}
+
+// What `--history` asks for: "auto", the name of a family, or the path of a verdict.yaml. The effects that it
+// names propose a family, which is tried before the others; held-out error still decides.
+fsr::calibration::HistoryChoice historyChoice(const std::string& text, std::ostream& out) {
+  if (text == "auto") return {};
+  if (!std::filesystem::exists(text)) {
+    try {
+      return {false, fsr::calibration::historyFromName(text)};
+    } catch (const fsr::settings::InputError&) {
+      throw fsr::settings::InputError(
+          "--history is \"" + text +
+          "\", but must be auto, none, plays, memories, both, or the path of a verdict.yaml");
     }
   }
-}
-
-fsr::regression::RegressorOptions regressorOptions(const fsr::settings::CommandLine& line) {
-  fsr::regression::RegressorOptions options;
-  options.name = line.text("model", options.name);
-  fsr::regression::makeRegressor(options);  // throws if there is no model of that name
-  refuseOptionsOfOthers(line, options.name);
-  options.grnn.spread =
-      fsr::regression::spreadFromName(line.text("spread", fsr::regression::spreadName(options.grnn.spread)));
-  options.grnn.distance = fsr::regression::distanceFromName(
-      line.text("distance", fsr::regression::distanceName(options.grnn.distance)));
-  if (line.has("equal-bins")) options.grnn.weighting = fsr::regression::SampleWeighting::kEachPressureBin;
-  options.forest.trees = static_cast<std::size_t>(line.integer("trees", 150, {1, 1e5, ""}));
-  options.forest.minimum_leaf = static_cast<std::size_t>(line.integer("minimum-leaf", 5, {1, 1e6, ""}));
-  options.forest.leaf_count = fsr::regression::leafRuleFromName(
-      line.text("leaf-rule", fsr::regression::leafRuleName(options.forest.leaf_count)));
-  return options;
-}
-
-fsr::calibration::ZeroChoice zeroChoice(const std::string& text) {
-  if (text == "auto") return fsr::calibration::ZeroChoice::kAuto;
-  if (text == "none") return fsr::calibration::ZeroChoice::kNone;
-  if (text == "session") return fsr::calibration::ZeroChoice::kSession;
-  throw fsr::settings::InputError("--zero is \"" + text + "\", but must be auto, none or session");
+  const fsr::report::VerdictFile verdict = fsr::report::readVerdict(text);
+  const HistoryFamily family = historyFamilyOf(verdict.effects);
+  if (family == HistoryFamily::kNone) {
+    out << text << " names "
+        << (verdict.effects.empty() ? "no effect" : fsr::settings::joined(verdict.effects))
+        << ", which no model of memory describes; the history is chosen as with auto.\n";
+  }
+  return {true, family};
 }
 
 fsr::calibration::CalibrationOptions calibrationOptions(const fsr::settings::CommandLine& line,
                                                         std::ostream& out) {
-  fsr::calibration::CalibrationOptions options;
-  options.scheme =
-      fsr::compensation::schemeFromName(line.text("scheme", fsr::compensation::schemeName(options.scheme)));
-  options.regressor = regressorOptions(line);
-  const auto bandwidth = fsr::regression::bandwidthFromText(line.text("bandwidth", "auto"));
-  options.choose_bandwidth = !bandwidth;
-  if (bandwidth) options.regressor.grnn.bandwidth = *bandwidth;
-  options.folds = static_cast<std::size_t>(line.integer("folds", 5, {2, 20, ""}));
-  options.seed = static_cast<std::uint64_t>(line.integer("seed", 1, {0, 1e15, ""}));
-  options.threads = threadsOf(line);
+  fsr::calibration::CalibrationOptions options = trainingOptions(TrainingWords{line});
+  refuseOptionsOfOthers(line, options.regressor.name);
   options.scores = !line.has("no-scores");
-  options.zero = zeroChoice(line.text("zero", "auto"));
-  std::string remark;
-  options.history = historyOption(line.text("history", "auto"), remark);
-  if (!remark.empty()) out << remark << '\n';
-  options.temperature = temperatureOption(line.text("temperature", ""), options.history);
+  options.zero = zeroChoice(line);
+  options.history = historyChoice(line.text("history", "auto"), out);
+  const bool memory = options.history.automatic || options.history.family != HistoryFamily::kNone;
+  options.temperature = line.choice("temperature", {"auto", "none"}, memory ? "auto" : "none") == "auto";
   if (line.has("transducer")) options.reference_deviation = line.number("transducer", 0, {0, 1e7, "Pa"});
   return options;
 }
@@ -152,17 +165,6 @@ int showBudget(const fsr::settings::CommandLine& line, std::ostream& out) {
   return 0;
 }
 
-// Throws if an option is given that `mode` takes from the files.
-void refuseOptionsOfTraining(const fsr::settings::CommandLine& line, const std::string& mode) {
-  for (const char* const option :
-       {"scheme", "history", "zero", "temperature", "model", "bandwidth", "spread", "distance", "equal-bins",
-        "trees", "minimum-leaf", "leaf-rule", "folds", "seed"}) {
-    if (!line.has(option)) continue;
-    throw fsr::settings::InputError("--" + std::string(option) + " cannot be used with --" + mode +
-                                    ", because the files determine it");
-  }
-}
-
 // Before hours of training. Empty = not wanted.
 void requireOutputs(const std::string& calibration, const std::string& report) {
   namespace kind = fsr::settings::file_kind;
@@ -171,12 +173,9 @@ void requireOutputs(const std::string& calibration, const std::string& report) {
 }
 
 fsr::calibration::Calibration merge(const fsr::settings::CommandLine& line, std::ostream& out) {
-  refuseOptionsOfTraining(line, "merge");
-  for (const char* const option : {"ambient", "namespace"}) {
-    if (!line.has(option)) continue;
-    throw fsr::settings::InputError("--" + std::string(option) +
-                                    " cannot be used with --merge, because the files determine it");
-  }
+  line.refuse({"scheme", "history", "zero", "temperature", "model", "bandwidth", "spread", "distance",
+               "equal-bins", "trees", "minimum-leaf", "leaf-rule", "folds", "seed", "ambient", "namespace"},
+              "cannot be used with --merge, because the files determine it");
   std::vector<fsr::calibration::MergePart> parts;
   for (const std::string& path : line.files()) {
     parts.push_back(
@@ -193,7 +192,7 @@ fsr::calibration::Calibration merge(const fsr::settings::CommandLine& line, std:
 
 fsr::calibration::Calibration train(const fsr::settings::CommandLine& line, std::ostream& out) {
   const fsr::calibration::CalibrationOptions chosen = calibrationOptions(line, out);
-  const fsr::calibration::CalibrationProblem problem{readBags(line, line.files()), chosen};
+  const fsr::calibration::CalibrationProblem problem{readBags(bagReadOptions(line), line.files()), chosen};
   fsr::calibration::validate(problem);
   const bool details = line.has("details");
   if (details) {
@@ -217,10 +216,7 @@ fsr::calibration::Calibration train(const fsr::settings::CommandLine& line, std:
 int trainTool(int argc, const char* const* argv, std::ostream& out) {
   if (const auto words = wordsOfCheck(argc, argv)) return checkInstead("train --check", *words, out);
   fsr::settings::CommandLine line = trainOptions();
-  if (!line.parse(argc, argv)) {
-    out << line.help();
-    return 0;
-  }
+  if (!line.parse(argc, argv, out)) return 0;
   if (line.has("budget")) return showBudget(line, out);
   const std::string output = line.requiredText("output");
   const std::string report = line.text("report", "");

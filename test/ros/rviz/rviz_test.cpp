@@ -43,8 +43,8 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "fsr_pressure_map/view/colour_map.h"
-#include "ros/messages/mesh_messages.h"
 #include "ros/messages/message_reader.h"
+#include "ros/messages/view_messages.h"
 #include "support/source_dir.h"
 #include "view/taxel_look.h"
 

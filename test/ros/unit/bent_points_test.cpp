@@ -1,4 +1,4 @@
-#include "ros/messages/bent_points.h"
+#include "ros/messages/view_messages.h"
 
 #include <gtest/gtest.h>
 #include <sensor_msgs/point_cloud2_iterator.h>

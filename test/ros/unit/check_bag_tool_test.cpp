@@ -1,4 +1,4 @@
-#include "ros/tools/check_bag_tool.h"
+#include "ros/tools/tools.h"
 
 #include <unistd.h>
 
@@ -203,7 +203,7 @@ TEST_F(CheckBagTool, RefusesWhatItCannotRead) {
   EXPECT_EQ(run({(folder_ / "none.bag").string()}), -1);
   EXPECT_TRUE(says("no such file"));
   EXPECT_EQ(run({"--use", "shoe", record()}), -1);
-  EXPECT_TRUE(says("must be chamber or socket"));
+  EXPECT_TRUE(says("must be one of chamber, socket"));
   EXPECT_EQ(run({"--calibration", "c.h5", record()}), -1);
 }
 

@@ -1,4 +1,4 @@
-#include "ros/tools/csv_tool.h"
+#include "ros/tools/tools.h"
 
 #include <fsr_pressure_map/MatrixInfo.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "ros/tools/day_report_tool.h"
+#include "ros/tools/tools.h"
 
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>

@@ -10,7 +10,6 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "report/verdict_file.h"
-#include "ros/tools/figure_script.h"
 #include "ros/tools/show_ledger.h"
 #include "ros/tools/tool_options.h"
 #include "support/example_discrepancy.h"
@@ -80,8 +79,8 @@ TEST_F(DiscrepancyFiles, BecomeAReportThatNeedsNoNetwork) {
   const std::string html = text("report.html");
   for (const char* part :
        {"Best explanation among 3 effects tested", "How sure", "Not excluded: hysteresis",
-        "The gain changes from cycle to cycle by 1.2 %", "crosstalk (uneven load)",
-        "Run five cycles", "3.10 %", "19.2 kPa", "floor", "data:image/png;base64", "3 times by now"})
+        "The gain changes from cycle to cycle by 1.2 %", "crosstalk (uneven load)", "Run five cycles",
+        "3.10 %", "19.2 kPa", "floor", "data:image/png;base64", "3 times by now"})
     EXPECT_NE(html.find(part), std::string::npos) << part;
   for (const char* part : {"http://", "https://", "<script", "src=\"/", "file://"})
     EXPECT_EQ(html.find(part), std::string::npos) << part;

@@ -1,4 +1,4 @@
-#include "ros/tools/discrepancy_tool.h"
+#include "ros/tools/tools.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -14,7 +14,6 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "report/verdict_file.h"
 #include "ros/bags/bag_writer.h"
-#include "ros/tools/simulate_tool.h"
 #include "simulation/settings_text.h"
 #include "support/source_dir.h"
 #include "support/synthetic_recording.h"

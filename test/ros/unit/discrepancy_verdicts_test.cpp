@@ -11,7 +11,7 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "report/verdict_file.h"
 #include "ros/bags/bag_writer.h"
-#include "ros/tools/discrepancy_tool.h"
+#include "ros/tools/tools.h"
 #include "settings/replace_file.h"
 #include "simulation/settings_text.h"
 #include "statistics/random_stream.h"
@@ -65,7 +65,8 @@ class DiscrepancyVerdicts : public testing::Test {
     EXPECT_NE(said.find("Written: "), std::string::npos) << said;
     return fsr::report::readVerdict(path("out/verdict.yaml"));
   }
-  fsr::report::VerdictFile hidden(const std::string& rig, const std::string& effects, const Words& more = {}) const {
+  fsr::report::VerdictFile hidden(const std::string& rig, const std::string& effects,
+                                  const Words& more = {}) const {
     return verdict({session("bags", fsr::discrepancy::planted::problem(rig, effects))}, more);
   }
 

@@ -1,4 +1,4 @@
-#include "ros/tools/export_tool.h"
+#include "ros/tools/tools.h"
 
 #include <fsr_pressure_map/Event.h>
 #include <fsr_pressure_map/MatrixFrame.h>

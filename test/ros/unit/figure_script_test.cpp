@@ -1,4 +1,4 @@
-#include "ros/tools/figure_script.h"
+#include "ros/tools/tool_options.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "ros/messages/mesh_messages.h"
+#include "ros/messages/view_messages.h"
 
 #include <gtest/gtest.h>
 

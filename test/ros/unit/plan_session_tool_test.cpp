@@ -1,4 +1,4 @@
-#include "ros/tools/plan_session_tool.h"
+#include "ros/tools/tools.h"
 
 #include <gtest/gtest.h>
 

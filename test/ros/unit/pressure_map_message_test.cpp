@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "ros/messages/surface_markers.h"
+#include "ros/messages/view_messages.h"
 
 namespace fsr_ros {
 namespace {

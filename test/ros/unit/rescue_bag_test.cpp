@@ -14,7 +14,7 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "ros/bags/bag_walk.h"
 #include "ros/recording/bag_sink.h"
-#include "ros/tools/close_bag_tool.h"
+#include "ros/tools/tools.h"
 #include "support/pty.h"
 #include "support/small_disk.h"
 

@@ -1,4 +1,4 @@
-#include "ros/tools/simulate_tool.h"
+#include "ros/tools/tools.h"
 
 #include <unistd.h>
 

@@ -16,10 +16,7 @@
 
 #include "exports/scan_formats.h"
 #include "ros/bags/bag_writer.h"
-#include "ros/tools/check_bag_tool.h"
-#include "ros/tools/export_tool.h"
-#include "ros/tools/scrub_tool.h"
-#include "ros/tools/study_tool.h"
+#include "ros/tools/tools.h"
 #include "support/pty.h"
 
 // Sanitizers keep memory that was freed.

@@ -1,4 +1,4 @@
-#include "ros/tools/train_tool.h"
+#include "ros/tools/tools.h"
 
 #include <unistd.h>
 
@@ -206,7 +206,7 @@ TEST_F(TrainTool, TakesTheTemperatureOut) {
   }
   run({bag, "--output", output, "--history", "none", "--temperature", "auto"});
   EXPECT_TRUE(fsr::calibration::loadCalibration(output).temperature.present());
-  EXPECT_NE(run({bag, "--output", output, "--temperature", "warm"}).find("must be auto or none"),
+  EXPECT_NE(run({bag, "--output", output, "--temperature", "warm"}).find("must be one of auto, none"),
             std::string::npos);
 }
 
@@ -275,7 +275,7 @@ TEST_F(TrainTool, ExpectsATareAtTheStartOfASession) {
   EXPECT_EQ(run(words).find("Tare at the start"), std::string::npos);
   EXPECT_FALSE(fsr::calibration::loadCalibration(output).session_zero.expected());
   EXPECT_EQ(run({bend_, "--output", output, "--zero", "yes"}),
-            "--zero is \"yes\", but must be auto, none or session");
+            "--zero is \"yes\", but must be one of auto, none, session");
   EXPECT_EQ(run({bend_, "--output", output, "--zero", "session"}).find("zero session: no surface has two"),
             0u);
 }
@@ -369,17 +369,17 @@ TEST_F(TrainTool, WrongUsageIsOneSentence) {
   EXPECT_EQ(run({bend_}), "--output FILE is missing; see train --help");
   EXPECT_EQ(run({"--output", output}), "there is no recording to train on; give one bag or more");
   EXPECT_EQ(run({bend_, "--output", output, "--scheme", "best"}),
-            "scheme is \"best\", but must be one of flat_only, baseline, per_curvature, "
+            "--scheme is \"best\", but must be one of flat_only, baseline, per_curvature, "
             "curvature_input, one_hot, flat_or_curved, binary_input, scaled_curvature, curvature_map, "
             "curvature_ranges, interpolated, per_surface");
   EXPECT_EQ(run({bend_, "--output", output, "--model", "best"}),
-            "model is \"best\", but must be one of linear, grnn, forest, monotone");
+            "--model is \"best\", but must be one of linear, grnn, forest, monotone");
   EXPECT_EQ(run({bend_, "--output", output, "--trees", "5"}),
             "--trees is an option of --model forest, but the model is grnn");
   EXPECT_EQ(run({bend_, "--output", output, "--bandwidth", "wide"}),
             "bandwidth is \"wide\", but must be auto, or a number of deviations");
   EXPECT_EQ(run({bend_, "--output", output, "--leaf-rule", "few", "--model", "forest"}),
-            "leaf_rule is \"few\", but must be draws or distinct");
+            "--leaf-rule is \"few\", but must be one of draws, distinct");
   EXPECT_EQ(run({bend_, "--output", output, "--folds", "1"}),
             "--folds is \"1\", but must be a whole number, 2 to 20");
   EXPECT_EQ(

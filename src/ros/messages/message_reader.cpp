@@ -1,4 +1,4 @@
-#include "ros/messages/earlier_definitions.h"
+#include "ros/messages/message_reader.h"
 
 #include <cstddef>
 #include <set>
