@@ -8,6 +8,7 @@
 #include "regression/forest/forest.h"
 #include "regression/grnn/grnn.h"
 #include "regression/grnn/weighted_codes.h"
+#include "support/holds.h"
 
 namespace fsr::compensation {
 namespace {
@@ -236,12 +237,7 @@ TEST(FitScheme, HeldOutModelsAreTrainedOnTheOtherSections) {
 }
 
 std::string refusal(Scheme scheme, const regression::RegressorOptions& regressor) {
-  try {
-    requireSchemeFor(scheme, regressor);
-  } catch (const settings::InputError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return test_support::refusal([&] { requireSchemeFor(scheme, regressor); }, "accepted");
 }
 
 TEST(FitScheme, RefusesARegressorWithoutTheSecondInputByName) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "support/holds.h"
 
 namespace fsr::compensation {
 namespace {
@@ -36,15 +37,11 @@ TEST(SchemePlan, FlatOnlyTrainsOnTheFlatClassAndAnswersForAll) {
 }
 
 TEST(SchemePlan, FlatOnlyNeedsAFlatClass) {
-  try {
-    planScheme(Scheme::kFlatOnly, {kClasses[0], kClasses[2]});
-    FAIL() << "accepted";
-  } catch (const settings::InputError& error) {
-    EXPECT_STREQ(
-        error.what(),
-        "scheme is flat_only, but no recording is of a flat surface (there is socket, cylinder_7cm); "
-        "add one, or choose baseline or per_curvature");
-  }
+  EXPECT_EQ(test_support::refusal([&] {
+              planScheme(Scheme::kFlatOnly, {kClasses[0], kClasses[2]});
+            }),
+            "scheme is flat_only, but no recording is of a flat surface (there is socket, cylinder_7cm); "
+            "add one, or choose baseline or per_curvature");
 }
 
 TEST(SchemePlan, FlatOrCurvedHasTwoModels) {
@@ -66,14 +63,8 @@ TEST(SchemePlan, WithASecondInputEveryModelIsTrainedOnAllClasses) {
 }
 
 TEST(SchemePlan, FlatOrCurvedNeedsFlatAndBentClasses) {
-  try {
-    planScheme(Scheme::kFlatOrCurved, {kClasses[1]});
-    FAIL() << "accepted";
-  } catch (const settings::InputError& error) {
-    EXPECT_STREQ(
-        error.what(),
-        "scheme is flat_or_curved, but no recording is of a bent surface; add one, or choose flat_only");
-  }
+  EXPECT_EQ(test_support::refusal([&] { planScheme(Scheme::kFlatOrCurved, {kClasses[1]}); }),
+            "scheme is flat_or_curved, but no recording is of a bent surface; add one, or choose flat_only");
 }
 
 }  // namespace

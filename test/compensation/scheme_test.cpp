@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "support/holds.h"
 
 namespace fsr::compensation {
 namespace {
@@ -12,15 +13,10 @@ TEST(Scheme, IsFoundByItsName) {
 }
 
 TEST(Scheme, AnUnknownNameIsRefusedWithTheKnownOnes) {
-  try {
-    schemeFromName("per_curve");
-    FAIL() << "accepted";
-  } catch (const settings::InputError& error) {
-    EXPECT_STREQ(error.what(),
-                 "scheme is \"per_curve\", but must be one of flat_only, baseline, per_curvature, "
-                 "curvature_input, one_hot, flat_or_curved, binary_input, scaled_curvature, curvature_map, "
-                 "curvature_ranges, interpolated, per_surface");
-  }
+  EXPECT_EQ(test_support::refusal([&] { schemeFromName("per_curve"); }),
+            "scheme is \"per_curve\", but must be one of flat_only, baseline, per_curvature, "
+            "curvature_input, one_hot, flat_or_curved, binary_input, scaled_curvature, curvature_map, "
+            "curvature_ranges, interpolated, per_surface");
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "support/holds.h"
 #include "support/synthetic_recording.h"
 
 namespace fsr::dataset {
@@ -58,12 +59,8 @@ TEST(ConditionClasses, AreFlatOnlyWhereEveryTaxelIs) {
 TEST(ConditionClasses, RefuseAnUnknownCurvature) {
   Recording recording = bag("a.bag", {{"flat", 0.0}});
   recording.conditions.front().curvature.clear();
-  try {
-    poolConditions({recording});
-    FAIL() << "accepted";
-  } catch (const settings::InputError& error) {
-    EXPECT_STREQ(error.what(), "a.bag: no curvature is recorded, but training needs the topic curvature");
-  }
+  EXPECT_EQ(test_support::refusal([&] { poolConditions({recording}); }),
+            "a.bag: no curvature is recorded, but training needs the topic curvature");
 }
 
 TEST(Coverage, CountsScansAndCyclesByBinAndDirection) {

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "support/holds.h"
 
 namespace fsr::dataset {
 namespace {
@@ -303,12 +304,7 @@ TEST(RecordingBuilder, InterpolatesTheTemperatureAndHoldsItAtTheEnds) {
 }
 
 std::string complaint(const std::vector<Event>& events) {
-  try {
-    build(events);
-  } catch (const settings::InputError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return test_support::refusal([&] { build(events); }, "accepted");
 }
 
 TEST(RecordingBuilder, RefusesEventsOfTwoMatrices) {

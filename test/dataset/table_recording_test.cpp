@@ -1,29 +1,22 @@
 #include "dataset/table_recording.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 #include <zlib.h>
 
 #include <filesystem>
 #include <fstream>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "support/folder_test.h"
+#include "support/holds.h"
 
 namespace fsr::dataset {
 namespace {
 
 namespace fs = std::filesystem;
 
-class Table : public testing::Test {
+class Table : public test_support::FolderTest {
  protected:
-  void SetUp() override {
-    path_ = (fs::path(testing::TempDir()) /
-             ("table_" + std::to_string(::getpid()) + "_" +
-              std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".csv"))
-                .string();
-  }
-  void TearDown() override { fs::remove(path_); }
-
   TableRecording read(const std::string& text, const std::string& columns, TablePlan plan = {}) const {
     std::ofstream(path_) << text;
     plan.columns = parseColumns(columns);
@@ -31,21 +24,15 @@ class Table : public testing::Test {
   }
   std::string complaint(const std::string& text, const std::string& columns,
                         const TablePlan& plan = {}) const {
-    try {
-      read(text, columns, plan);
-    } catch (const settings::InputError& error) {
-      return error.what();
-    }
-    return "";
+    return test_support::refusal([&] { read(text, columns, plan); });
   }
   void expectComplaint(const std::string& text, const std::string& columns,
                        const std::vector<std::string>& parts, const TablePlan& plan = {}) const {
-    const std::string said = complaint(text, columns, plan);
     for (const std::string& part : parts)
-      EXPECT_NE(said.find(part), std::string::npos) << part << " in: " << said;
+      EXPECT_TRUE(test_support::holds(complaint(text, columns, plan), {part}));
   }
 
-  std::string path_;
+  const std::string path_ = path("table.csv");
 };
 
 constexpr const char* kPlain = "t,force,left,right\n0,10,1.0,2.0\n0.5,20,1.5,3.0\n1,30,2.5,4.0\n";
@@ -293,12 +280,7 @@ TEST_F(Table, RefusesAPlanThatDoesNotFit) {
 
 TEST(TableColumns, AreRefusedWithTheListOfPermittedValues) {
   const auto complaint = [](const std::string& text) -> std::string {
-    try {
-      parseColumns(text);
-    } catch (const settings::InputError& error) {
-      return error.what();
-    }
-    return "";
+    return test_support::refusal([&] { parseColumns(text); });
   };
   EXPECT_NE(complaint("time=1,reeding=2").find("reeding"), std::string::npos);
   EXPECT_NE(complaint("time=1,reading=2:kg").find("Mohm"), std::string::npos);
@@ -344,12 +326,8 @@ TEST_F(Table, RefusesPackedEmptyLinesEarly) {
   gzclose(file);
   TablePlan plan;
   plan.columns = parseColumns("time=1,reading=2:V");
-  try {
-    readTable(path_, plan);
-    FAIL() << "read";
-  } catch (const settings::InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("16 MiB of empty lines"), std::string::npos) << error.what();
-  }
+  EXPECT_TRUE(
+      test_support::holds(test_support::refusal([&] { readTable(path_, plan); }), {"16 MiB of empty lines"}));
 }
 
 TEST_F(Table, RefusesALineThatBeginsWithAZeroByte) {

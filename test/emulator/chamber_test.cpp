@@ -12,10 +12,6 @@ using fsr::simulation::ChamberProtocol;
 // 10 s rest, 40 s up to 400 kPa, 5 s dwell, 20 s down: 75 s a cycle.
 const ChamberProtocol kSlow{400e3, 10e3, 20e3, 5, 10, 2};
 
-TEST(Chamber, IsAtRestUntilItIsStarted) {
-  EXPECT_EQ(Chamber().gaugePressure(1e6), 0);
-}
-
 TEST(Chamber, RunsItsCyclesFromTheTimeOfTheCommand) {
   Chamber chamber;
   chamber.startCycles(100, kSlow);

@@ -59,18 +59,6 @@ class Replay {
   std::uint64_t number_ = 0;
 };
 
-TEST(Emulator, SendsBytesThatDecodeWithoutDamage) {
-  Emulator rig(bench());
-  BoardListener listener(rig.port());
-  ASSERT_TRUE(listener.untilScans(100));
-  EXPECT_FALSE(listener.serials.empty());
-  EXPECT_EQ(listener.serials.front(), "SIM-0001");
-  EXPECT_FALSE(listener.temperature.empty());
-  EXPECT_EQ(listener.temperature.front().value, 23000);
-  EXPECT_EQ(listener.counts().skipped_bytes, 0u);
-  EXPECT_EQ(listener.counts().of(fsr::protocol::PacketType::kScan).lost, 0u);
-}
-
 TEST(Emulator, SendsTransducerReadingsOfThePressureAtTheirStamps) {
   EmulatorOptions options = bench();
   options.autostart = true;
@@ -173,46 +161,6 @@ TEST(Emulator, VentsWhenStopped) {
   EXPECT_EQ(rig.gaugePressure(rig.rigTime()), 0);
 }
 
-TEST(EmulatorDamage, LostBytesCostOnlyThePacketsThatTheyHit) {
-  Emulator rig(bench());
-  BoardListener listener(rig.port());
-  LineDamage damage;
-  damage.lost_bytes = 0.005;
-  rig.setDamage(damage);
-  ASSERT_TRUE(hears(listener, rig, rig.rigTime() + 10));
-  const auto& counts = listener.counts();
-  EXPECT_GT(rig.counts().damage.lost_bytes, 0u);
-  EXPECT_GT(counts.of(fsr::protocol::PacketType::kScan).lost, 0u);
-  rig.setDamage({});
-  ASSERT_TRUE(hears(listener, rig, rig.rigTime()));
-  const auto lost = counts.of(fsr::protocol::PacketType::kScan).lost;
-  ASSERT_TRUE(listener.untilScans(100));
-  EXPECT_EQ(counts.of(fsr::protocol::PacketType::kScan).lost, lost) << "no loss after the damage ended";
-}
-
-TEST(EmulatorDamage, FlippedBitsFailTheChecks) {
-  Emulator rig(bench());
-  BoardListener listener(rig.port());
-  LineDamage damage;
-  damage.flipped_bits = 0.001;
-  rig.setDamage(damage);
-  ASSERT_TRUE(hears(listener, rig, rig.rigTime() + 10));
-  EXPECT_GT(listener.counts().bad_packet_check, 0u);
-  EXPECT_GT(rig.counts().damage.flipped_bits, 0u);
-}
-
-TEST(EmulatorDamage, APauseIsAGapOfItsLength) {
-  Emulator rig(bench());
-  BoardListener listener(rig.port());
-  ASSERT_TRUE(listener.untilScans(20));
-  LineDamage damage;
-  damage.pause = 3;
-  rig.setDamage(damage);
-  ASSERT_TRUE(
-      listener.until([&] { return listener.counts().of(fsr::protocol::PacketType::kScan).gaps > 0; }));
-  EXPECT_NEAR(static_cast<double>(listener.counts().of(fsr::protocol::PacketType::kScan).lost), 3 * 20, 1);
-}
-
 TEST(EmulatorDamage, UnpluggingRemovesThePortAndPluggingInRestoresItsName) {
   const test_support::TemporaryFolder folder;
   EmulatorOptions options = bench();
@@ -231,41 +179,6 @@ TEST(EmulatorDamage, UnpluggingRemovesThePortAndPluggingInRestoresItsName) {
   rig.setDamage({});
   BoardListener listener(rig.port());
   EXPECT_TRUE(listener.untilScans(10));
-}
-
-TEST(EmulatorDamage, AReaderAtAnotherSpeedReceivesNoValidPacket) {
-  EmulatorOptions options = bench();
-  options.baud = 230400;
-  Emulator rig(options);
-  {
-    BoardListener wrong(rig.port(), 115200);
-    ASSERT_TRUE(wrong.until([&] { return wrong.counts().bytes > 20000; }));
-    EXPECT_TRUE(wrong.scans.empty());
-  }
-  BoardListener right(rig.port(), 230400);
-  EXPECT_TRUE(right.untilScans(10));
-  LineDamage damage;
-  damage.baud = 57600;
-  rig.setDamage(damage);
-  ASSERT_TRUE(
-      right.until([&] { return right.counts().bad_header_check + right.counts().skipped_bytes > 1000; }));
-}
-
-TEST(EmulatorDamage, AResetRestartsClockAndCounters) {
-  Emulator rig(bench());
-  BoardListener listener(rig.port());
-  ASSERT_TRUE(listener.until([&] { return !listener.scans.empty() && listener.scans.back().sequence > 40; }));
-  rig.resetBoard();
-  // One read may return bytes from long before the reset and from long after it.
-  const auto restart = [&] {
-    return std::adjacent_find(listener.scans.begin(), listener.scans.end(),
-                              [](const auto& a, const auto& b) { return b.sequence < a.sequence; });
-  };
-  ASSERT_TRUE(listener.until([&] { return restart() != listener.scans.end(); }));
-  const auto first = std::next(restart());
-  EXPECT_LT(first->device_time, restart()->device_time);
-  EXPECT_LE(first->device_time, 100000u * (first->sequence + 1));
-  EXPECT_EQ(listener.counts().of(fsr::protocol::PacketType::kScan).restarts, 1u);
 }
 
 TEST(EmulatorLine, ASlowReaderLosesWholePacketsAndNeverBlocksTheBoard) {
@@ -334,12 +247,11 @@ using fsr::emulator::Task;
 using fsr::emulator::TaskKind;
 
 /// The bench rig with an operator who takes 5 s to change the surface.
-EmulatorOptions operated(const std::string& script = "") {
+EmulatorOptions operated() {
   EmulatorOptions options = bench();
   test_support::ClumsyOptions clumsy;
   clumsy.person.habits = fsr::emulator::Habits::exact();
   clumsy.person.habits.change_least = clumsy.person.habits.change_most = 5;
-  clumsy.script = script;
   options.person = std::make_shared<test_support::ClumsyOperator>(clumsy);
   options.surface_called = [](const std::string& name) {
     if (name == "cylinder_7cm") return cylinder();
@@ -358,14 +270,13 @@ Task mountTask(const std::string& surface, std::uint32_t mount) {
   return task;
 }
 
-Task cycleTask(const std::string& remark = "") {
+Task cycleTask() {
   Task task;
   task.kind = TaskKind::kCycle;
   task.step = 2;
   task.peak = 300e3;
   task.rate = 100e3;
   task.cycle = task.cycles = 1;
-  task.remark = remark;
   return task;
 }
 
@@ -397,37 +308,6 @@ TEST(EmulatorOperator, PutsTheSheetOnASurfaceAndPressesAsInstructed) {
   }
   EXPECT_NEAR(highest, 300e3, 1e3);
   EXPECT_EQ(rig.gaugePressure(rig.rigTime()), 0);
-}
-
-TEST(EmulatorOperator, TakesTheLoadFromASheetThatIsOff) {
-  Emulator rig(operated("sheet_off"));
-  BoardListener listener(rig.port());
-  ASSERT_TRUE(rig.waitForReader(kLong));
-  rig.instruct(cycleTask());
-  const double begin = rig.rigTime();  // the sheet slips off 1.5 s later, the peak comes after 3 s
-  ASSERT_TRUE(hears(listener, rig, begin + 5));
-  std::uint16_t before = 0, after = 0;
-  for (const auto& scan : listener.scans) {
-    const double time = rig.rigTime(scan.device_time) - begin;
-    if (time > 0.5 && time < 1.4) before = std::max(before, scan.counts[0]);
-    if (time > 1.6 && time < 4.4) after = std::max(after, scan.counts[0]);
-  }
-  EXPECT_GT(before, 500);
-  EXPECT_LT(after, 100) << "what is left of the loop";
-}
-
-TEST(EmulatorOperator, UnplugsTheBoardAndPlugsItInAtARemark) {
-  const test_support::TemporaryFolder folder;
-  EmulatorOptions options = operated("board_unplugged");
-  options.link = folder.path("board");
-  Emulator rig(options);
-  rig.instruct(cycleTask());
-  ASSERT_TRUE(rig.waitForRigTime(rig.rigTime() + 2, kLong));
-  EXPECT_FALSE(std::filesystem::exists(std::filesystem::symlink_status(options.link)));
-  rig.instruct(cycleTask("last attempt rejected: scans were lost"));
-  ASSERT_TRUE(rig.waitForRigTime(rig.rigTime() + 1, kLong));
-  BoardListener listener(rig.port());
-  EXPECT_TRUE(listener.untilScans(10));
 }
 
 TEST(EmulatorOperator, IsTheOnlyOneWhoWorksTheChamber) {

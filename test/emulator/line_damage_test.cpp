@@ -86,13 +86,6 @@ TEST(LossyLine, LosesAndFlipsAtTheGivenRates) {
   EXPECT_EQ(line.counts().flipped_bits, flipped);
 }
 
-TEST(LossyLine, ChangesNothingWithoutDamage) {
-  LossyLine line(3);
-  Bytes bytes = {1, 2, 3};
-  line.pass({}, bytes);
-  EXPECT_EQ(bytes, (Bytes{1, 2, 3}));
-}
-
 TEST(LineDamage, RefusesValuesThatAreNotProbabilities) {
   LineDamage damage;
   damage.lost_bytes = 1.5;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "support/holds.h"
 
 namespace {
 
@@ -244,15 +245,9 @@ TEST(Operator, RefusesNumbersThatNoChamberReaches) {
   Operator person(exact());
   Task wrong = cycle(1);
   wrong.peak = 900e3;
-  try {
-    person.instruct(0, wrong);
-    FAIL();
-  } catch (const fsr::settings::InputError& error) {
-    EXPECT_STREQ(
-        error.what(),
-        "instruction of step 11 (cycle): peak is 900000, but must be 0 to 793000 Pa gauge (the chamber "
-        "is rated at 793 kPa)");
-  }
+  EXPECT_EQ(test_support::refusal([&] { person.instruct(0, wrong); }),
+            "instruction of step 11 (cycle): peak is 900000, but must be 0 to 793000 Pa gauge (the chamber "
+            "is rated at 793 kPa)");
   wrong = cycle(1);
   wrong.rate = std::nan("");
   EXPECT_THROW(person.instruct(0, wrong), fsr::settings::InputError);

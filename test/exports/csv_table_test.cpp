@@ -10,6 +10,7 @@
 #include "exports/scan_examples.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "support/file_size_limit.h"
+#include "support/holds.h"
 #include "support/program_output.h"
 #include "support/pty.h"
 
@@ -127,14 +128,11 @@ TEST_F(CsvTable, LeavesNoFileIfItIsNotFinishedOrTheDiskIsFull) {
     table.begin(export_test::exampleSubject());
     table.add(exampleScan());
   }
-  try {
-    const test_support::FileSizeLimit limit(1000);
-    write(std::vector<fsr::exports::ScanRecord>(2000, exampleScan()));
-    FAIL() << "a full disk passed";
-  } catch (const fsr::settings::InputError& error) {
-    EXPECT_NE(std::string(error.what()).find(path_ + ": cannot be written"), std::string::npos)
-        << error.what();
-  }
+  EXPECT_TRUE(test_support::holds(test_support::refusal([&] {
+                                    const test_support::FileSizeLimit limit(1000);
+                                    write(std::vector<fsr::exports::ScanRecord>(2000, exampleScan()));
+                                  }),
+                                  {path_ + ": cannot be written"}));
   EXPECT_EQ(lines(), std::vector<std::string>{"old,table"});
   const std::filesystem::directory_iterator files(folder_.path());
   EXPECT_EQ(std::distance(begin(files), end(files)), 1);

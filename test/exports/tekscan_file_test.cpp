@@ -7,6 +7,7 @@
 
 #include "exports/scan_examples.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "support/holds.h"
 #include "support/program_output.h"
 #include "support/pty.h"
 
@@ -48,17 +49,15 @@ TEST_F(TekscanFile, HasTheHeaderThatItsReadersNeed) {
 
 TEST_F(TekscanFile, WritesFramesInKilopascalWithBForNoReading) {
   const std::string text = write({exampleScan()}, true);
-  EXPECT_NE(text.find("\r\nFrame 1\r\n0.000100000001,-0.0148925781,1e-33\r\n"), std::string::npos);
-  EXPECT_NE(text.find("\r\n123.456789,B,600.000063\r\n\r\n@@\r\nFRAME_TIME 1 0.050000001\r\n"),
-            std::string::npos)
-      << text;
+  EXPECT_TRUE(
+      test_support::holds(text, {"\r\nFrame 1\r\n0.000100000001,-0.0148925781,1e-33\r\n",
+                                 "\r\n123.456789,B,600.000063\r\n\r\n@@\r\nFRAME_TIME 1 0.050000001\r\n"}));
 }
 
 TEST_F(TekscanFile, WritesCountsIfThereAreNoMaps) {
   const std::string text = write({bareScan()}, false);
-  EXPECT_NE(text.find("UNITS RAW\r\n"), std::string::npos);
-  EXPECT_NE(text.find("SATURATION_PRESSURE 4095 RAW\r\n"), std::string::npos);
-  EXPECT_NE(text.find("Frame 1\r\n9,8,7\r\n6,5,4\r\n"), std::string::npos);
+  EXPECT_TRUE(test_support::holds(
+      text, {"UNITS RAW\r\n", "SATURATION_PRESSURE 4095 RAW\r\n", "Frame 1\r\n9,8,7\r\n6,5,4\r\n"}));
 }
 
 // Reads the file as readers of the format do: header up to ASCII_DATA, then rows after each line that starts

@@ -76,21 +76,6 @@ TEST(TaxelWatch, FindsADeadTaxelOnANoisyBoardOnceItKnowsTheNoise) {
   }
 }
 
-TEST(TaxelWatch, FindsATaxelThatReadsNothingUnderLoad) {
-  Sheet sheet;
-  sheet.overruled = {{33, 0}};
-  sheet.run(kCycle, cycles);
-  EXPECT_EQ(sheet.watch.flags()[33], map::taxel_flag::kDead);
-  EXPECT_EQ(flagged(sheet.watch), 1);
-}
-
-TEST(TaxelWatch, FindsADeadTaxelUnderConstantLoad) {
-  Sheet sheet;
-  sheet.overruled = {{0, 3}};  // a corner, with noise of an open circuit
-  sheet.run(kTwoWindows, constantLoad);
-  EXPECT_EQ(sheet.watch.flags()[0], map::taxel_flag::kDead);
-}
-
 TEST(TaxelWatch, FindsAWholeDeadRowAndColumn) {
   Sheet sheet;
   for (std::size_t column = 0; column < 10; ++column) sheet.overruled.push_back({column, 0});
@@ -112,14 +97,6 @@ TEST(TaxelWatch, FindsAStuckRowAndSingleStuckTaxelsAtTheBorder) {
     EXPECT_EQ(sheet.watch.flags()[taxel], map::taxel_flag::kStuck | line) << "taxel " << taxel;
   }
   EXPECT_EQ(flagged(sheet.watch), 13);
-}
-
-TEST(TaxelWatch, FindsATaxelThatDoesNotFollowItsNeighbours) {
-  Sheet sheet;
-  sheet.overruled = {{47, 812}};
-  sheet.run(kCycle, cycles);
-  EXPECT_EQ(sheet.watch.flags()[47], map::taxel_flag::kStuck);
-  EXPECT_EQ(flagged(sheet.watch), 1);
 }
 
 TEST(TaxelWatch, CountsATaxelThatBecomesAliveAgain) {

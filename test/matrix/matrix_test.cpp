@@ -6,6 +6,7 @@
 #include "fsr_pressure_map/matrix/curvature.h"
 #include "fsr_pressure_map/matrix/layout.h"
 #include "matrix/surface_file.h"
+#include "support/holds.h"
 #include "support/source_dir.h"
 
 namespace fsr::matrix {
@@ -86,14 +87,9 @@ TEST(SurfaceFile, ReadsOneDeviationForEachTaxelOrForAll) {
 
 TEST(SurfaceFile, RefusesTheWrongNumberOfTaxels) {
   const auto settings = settings::Settings::fromText("surface: limb\ntaxels: {x: [1, 2, 3]}", "limb.yaml");
-  try {
-    readSurface(settings, kPaper);
-    FAIL() << "accepted";
-  } catch (const settings::InputError& error) {
-    EXPECT_STREQ(error.what(),
-                 "limb.yaml: taxels.x is a list of 3, but must have one value for each of the 70 taxels "
-                 "of a 7 x 10 matrix, row after row");
-  }
+  EXPECT_EQ(test_support::refusal([&] { readSurface(settings, kPaper); }),
+            "limb.yaml: taxels.x is a list of 3, but must have one value for each of the 70 taxels "
+            "of a 7 x 10 matrix, row after row");
 }
 
 TEST(SurfaceFile, RefusesTwoFormsAndTooLargeACurvature) {

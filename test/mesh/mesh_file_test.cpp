@@ -13,6 +13,7 @@
 #include "matrix/surface_file.h"
 #include "mesh/example_meshes.h"
 #include "mesh/mesh_surface.h"
+#include "support/folder_test.h"
 #include "support/program_output.h"
 
 namespace fsr::mesh {
@@ -23,15 +24,8 @@ using test_support::triangles;
 constexpr double kRadius = 0.05;
 constexpr double kInch = 0.0254;
 
-class MeshFile : public testing::Test {
+class MeshFile : public test_support::FolderTest {
  protected:
-  MeshFile() {
-    std::string name = testing::TempDir() + "mesh_XXXXXX";
-    folder_ = mkdtemp(name.data());
-  }
-  ~MeshFile() override { std::filesystem::remove_all(folder_); }
-
-  std::string path(const std::string& name) const { return folder_ + "/" + name; }
   std::string written(const std::string& name, const std::string& text) const {
     std::ofstream(path(name)) << text;
     return path(name);
@@ -46,8 +40,6 @@ class MeshFile : public testing::Test {
     }
     return "accepted";
   }
-
-  std::string folder_;
 };
 
 // Each file gives the connected mesh with the same curvature.
@@ -141,7 +133,7 @@ TEST_F(MeshFile, TheSurfaceFilePlacesTheFrameOfTheMatrix) {
     const MeshOrigin origin{"a.stl", "../a.stl", meshUnit("mm"), place.at, place.row_direction, 1, 2};
     const auto read = matrix::readMeshPlaceFile(written("placed.yaml", surfaceFileText(made, place, origin)));
     ASSERT_TRUE(read);
-    EXPECT_EQ(read->file, std::filesystem::path(folder_).parent_path().string() + "/a.stl");
+    EXPECT_EQ(read->file, folder_.parent_path().string() + "/a.stl");
     EXPECT_EQ(read->unit, 0.001);
     const auto& [x, y, z, w] = read->matrix.quaternion;
     const auto& [px, py, pz] = read->matrix.position;
@@ -171,8 +163,8 @@ class SurfaceFromMesh : public MeshFile {
     return std::filesystem::canonical("/proc/self/exe").parent_path().string() + "/surface_from_mesh";
   }
   test_support::ProgramOutput run(const std::string& options) const {
-    return test_support::outputOf("cd " + folder_ + " && env -i PATH=/usr/bin:/bin HOME=" + folder_ + " " +
-                                  tool() + " " + options + " 2>&1");
+    return test_support::outputOf("cd " + folder_.string() + " && env -i PATH=/usr/bin:/bin HOME=" +
+                                  folder_.string() + " " + tool() + " " + options + " 2>&1");
   }
 };
 

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "support/holds.h"
 
 namespace fsr::mesh {
 namespace {
@@ -12,12 +13,7 @@ namespace {
 using Corners = std::vector<Point>;
 
 std::string refusal(Corners (*read)(const std::string&), const std::string& bytes) {
-  try {
-    read(bytes);
-  } catch (const settings::InputError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return test_support::refusal([&] { read(bytes); }, "accepted");
 }
 
 template <typename Number>

@@ -10,6 +10,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "mesh/example_meshes.h"
+#include "support/holds.h"
 
 namespace fsr::mesh {
 namespace {
@@ -150,12 +151,7 @@ TEST(MeshSurface, TheDeviationStatesTheErrorOnARoughMesh) {
 
 // The sentence with which a place is refused.
 std::string refusal(const Mesh& mesh, const SheetPlace& where) {
-  try {
-    surfaceFromMesh(mesh, where, "s");
-  } catch (const settings::InputError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return test_support::refusal([&] { surfaceFromMesh(mesh, where, "s"); }, "accepted");
 }
 
 void expectRefused(const std::string& sentence, const std::string& part) {

@@ -47,16 +47,6 @@ class BoardReader : public testing::Test {
   test_support::LinkListener listener_;
 };
 
-TEST_F(BoardReader, ReadsTheBoard) {
-  plugIn();
-  const auto link = makeLink();
-  ASSERT_TRUE(listener_.reaches(LinkPhase::kReading));
-  board_->write(reading(1));
-  ASSERT_TRUE(listener_.packets(1));
-  EXPECT_EQ(link->report().phase, LinkPhase::kReading);
-  EXPECT_EQ(link->report().connections, 1U);
-}
-
 TEST_F(BoardReader, ReportsWhyItWaitsAndStartsWhenTheBoardIsPluggedIn) {
   const auto link = makeLink();
   ASSERT_TRUE(listener_.reaches(LinkPhase::kWaiting));

@@ -10,6 +10,7 @@
 #include "protocol/board_reader.h"
 #include "protocol/serial_port.h"
 #include "support/dummy_protocol.h"
+#include "support/holds.h"
 #include "support/link_listener.h"
 #include "support/packet_recorder.h"
 #include "support/pty.h"
@@ -38,12 +39,8 @@ TEST(Protocols, HaveANameAndASummaryEach) {
 }
 
 TEST(Protocols, AreListedWhereANameIsUnknown) {
-  try {
-    fsr::protocol::protocolNamed("morse");
-    FAIL() << "accepted";
-  } catch (const fsr::settings::InputError& error) {
-    EXPECT_STREQ(error.what(), "there is no protocol morse: set one of wire, text");
-  }
+  EXPECT_EQ(test_support::refusal([&] { fsr::protocol::protocolNamed("morse"); }),
+            "there is no protocol morse: set one of wire, text");
 }
 
 // What CONTRIBUTING.md promises: a protocol is a decoder and its maker, and nothing behind them changes.

@@ -99,11 +99,6 @@ TEST_F(SerialPort, RefusesASecondReaderAndSaysHowToFindTheFirst) {
   EXPECT_TRUE(contains(complaint, "fuser -v " + link_)) << complaint;
 }
 
-TEST_F(SerialPort, OpensAgainAfterItWasClosed) {
-  EXPECT_EQ(complaintOf(link_), "");
-  EXPECT_EQ(complaintOf(link_), "");
-}
-
 TEST_F(SerialPort, NamesAMissingPortAndWhatToSet) {
   const std::string complaint = complaintOf(folder_.path("ttyNone"));
   EXPECT_TRUE(contains(complaint, "there is no serial port " + folder_.path("ttyNone"))) << complaint;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "support/holds.h"
 #include "support/packet_recorder.h"
 
 namespace {
@@ -177,14 +178,10 @@ TEST(TextDecoder, RefusesASignBeforeAZeroUnlessTheTransducerReadsIt) {
 
 TEST(TextDecoder, SaysThatItNeedsTheMatrix) {
   test_support::PacketRecorder recorder;
-  try {
-    const fsr::protocol::TextDecoder decoder(recorder, {{7, 0}, 1023, 1000, false});
-    FAIL() << "accepted";
-  } catch (const fsr::settings::InputError& error) {
-    EXPECT_STREQ(
-        error.what(),
-        "the protocol text needs the number of rows and of columns: a line of counts does not say them");
-  }
+  EXPECT_EQ(test_support::refusal([&] {
+              const fsr::protocol::TextDecoder decoder(recorder, {{7, 0}, 1023, 1000, false});
+            }),
+            "the protocol text needs the number of rows and of columns: a line of counts does not say them");
 }
 
 const std::string kStream = "time,a,b,c\r\n12,0,512,1023\r\n13,9,8,7\r\n14,100,200,300\r\n15,5,5,5\r\n";

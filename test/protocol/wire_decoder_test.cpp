@@ -108,13 +108,6 @@ TEST(WireDecoder, ReadsEveryFieldOfAScanFromLiteralBytes) {
   EXPECT_EQ(linesOf(bytes), expected);
 }
 
-TEST(WireDecoder, ReadsSeveralPacketsFromOneRead) {
-  Bench bench;
-  bench.feed(joined(fivePackets()));
-  EXPECT_EQ(bench.lines(), kFiveLines);
-  EXPECT_EQ(bench.counts().skipped_bytes, 0U);
-}
-
 TEST(WireDecoder, ReadsTheSamePacketsInChunksOfAnySize) {
   const Bytes stream = joined(fivePackets());
   for (std::size_t chunk = 1; chunk < stream.size(); ++chunk) {
@@ -219,17 +212,6 @@ TEST(WireDecoder, RefusesValidPacketsWithImpossibleContent) {
   EXPECT_EQ(bench.lines(), Lines{});
   EXPECT_EQ(bench.counts().bad_content, 4U);
   EXPECT_EQ(bench.feed(transducer(1, 1, 1)).lines().size(), 1U);
-}
-
-TEST(WireDecoder, FindsPacketsInsideADamagedOne) {
-  // A scan that lost bytes extends, by its stated length, into the packets behind it.
-  const std::vector<Bytes> packets = fivePackets();
-  Bytes ruined = packets[0];
-  ruined.erase(ruined.begin() + 20, ruined.begin() + 30);
-  Bench bench;
-  bench.feed(ruined + packets[1] + packets[2]);
-  EXPECT_EQ(bench.lines(), (Lines{kFiveLines[1], kFiveLines[2]}));
-  EXPECT_EQ(bench.counts().bad_packet_check, 1U);
 }
 
 TEST(WireDecoder, ReadsSyncBytesAndWholePacketsInsideAPayload) {

@@ -38,14 +38,6 @@ TEST(DeviationScale, FollowsTheErrorsAlongTheCodes) {
   EXPECT_NEAR(factors[4095], 0.5, 0.1);
 }
 
-TEST(DeviationScale, OfUniformErrorsIsTheirQuantile) {
-  std::mt19937 random(3);
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  for (const double factor : factorsOf(10, [&](int) { return uniform(random); })) {
-    EXPECT_NEAR(factor, kShareWithinOneDeviation, 0.05);
-  }
-}
-
 TEST(DeviationScale, ACodeWithManyReadingsHasItsOwnFactor) {
   std::mt19937 random(4);
   std::normal_distribution<double> normal;

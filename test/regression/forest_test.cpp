@@ -23,14 +23,6 @@ double meanRmse(ForestOptions options, const std::function<double(const ForestOp
   return sum / 10;
 }
 
-double oneInput(const ForestOptions& options) {
-  static const auto data = regressionData();
-  const Fit fit = Forest(options).fitSamples(data.train);
-  std::vector<double> answers;
-  for (const std::uint16_t code : data.test.code) answers.push_back(fit.pressure[code]);
-  return rmsePercentOn(data.test, answers);
-}
-
 double twoInputs(const ForestOptions& options) {
   static const auto data = regressionData();
   const CurvatureSteps steps = fitCurvatureForest(data.train, options);
@@ -42,18 +34,6 @@ double twoInputs(const ForestOptions& options) {
 }
 
 constexpr double kRmseTolerance = 0.05;  // [%] of the range
-
-// Values of other packages: test/data/make_regression_data.py, 20 seeds (scikit-learn 1.2.1, ranger 0.14.1).
-TEST(Forest, OnOneInputAgreesWithScikitLearn) {
-  ForestOptions options;
-  options.leaf_count = LeafCount::kDistinct;
-  EXPECT_NEAR(meanRmse(options, oneInput), 4.8816, kRmseTolerance);
-}
-
-TEST(Forest, OnResampledReadingsAgreesWithScikitLearnsTreesOnResampledReadings) {
-  // DecisionTreeRegressor(min_samples_leaf=5) on 150 resampled sets
-  EXPECT_NEAR(meanRmse({}, oneInput), 4.9384, kRmseTolerance);
-}
 
 TEST(Forest, OnTwoInputsWithRetryAgreesWithScikitLearn) {
   ForestOptions options;

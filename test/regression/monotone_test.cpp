@@ -110,37 +110,11 @@ TEST(Monotone, KnotsIncreaseStrictlyAndTheTableDoesNotDecrease) {
   EXPECT_TRUE(std::is_sorted(fit.pressure.begin(), fit.pressure.end()));
 }
 
-TEST(Monotone, StaysWithinThePressuresOfTraining) {
-  const CodeSamples samples = scans(3000, 5, evenly);
-  const auto [low, high] = std::minmax_element(samples.pressure.begin(), samples.pressure.end());
-  const Fit fit = Monotone().fitSamples(samples);
-  EXPECT_EQ(fit.pressure.front(), fromFixed(*low));
-  EXPECT_EQ(fit.pressure.back(), fromFixed(*high));
-}
-
 TEST(Monotone, SupportIsThatOfTheNeighbouringKnots) {
   const MonotoneCurve curve(scans(6000, 7, evenly));
   const double left = curve.knotReading()[10], right = curve.knotReading()[11];
   const double at_left = curve.supportAt(left), at_right = curve.supportAt(right);
   EXPECT_NEAR(curve.supportAt((left + right) / 2), 4 / (1 / at_left + 1 / at_right), 1e-6);
-}
-
-TEST(Monotone, OfOneReadingOrOnePressureIsTheMean) {
-  CodeSamples samples;
-  samples.full_scale = 15;
-  samples.add(7, toFixed(1e3));
-  EXPECT_EQ(Monotone().fitSamples(samples).pressure, std::vector<double>(16, 1e3));
-  samples.add(7, toFixed(3e3));
-  EXPECT_EQ(Monotone().fitSamples(samples).pressure, std::vector<double>(16, 2e3));
-
-  samples.pressure = {toFixed(5e3), toFixed(5e3)};
-  samples.code = {3, 9};
-  EXPECT_EQ(Monotone().fitSamples(samples).pressure, std::vector<double>(16, 5e3));
-}
-
-TEST(Monotone, NeedsTheReadings) {
-  EXPECT_FALSE(Monotone().mergeable());
-  EXPECT_THROW(Monotone().fit(CodeHistogram(15)), settings::InputError);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "regression/cross_validation.h"
+#include "support/holds.h"
 #include "support/regression_data.h"
 
 namespace fsr::regression {
@@ -179,12 +180,8 @@ TEST(Regressors, AreMadeByNameAndOtherNamesAreRefused) {
   }
   RegressorOptions other;
   other.name = "perceptron";
-  try {
-    makeRegressor(other);
-    FAIL();
-  } catch (const settings::InputError& error) {
-    EXPECT_STREQ(error.what(), "model is \"perceptron\", but must be one of linear, grnn, forest, monotone");
-  }
+  EXPECT_EQ(test_support::refusal([&] { makeRegressor(other); }),
+            "model is \"perceptron\", but must be one of linear, grnn, forest, monotone");
 }
 
 }  // namespace

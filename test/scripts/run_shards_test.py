@@ -46,7 +46,8 @@ def until(event, what):
         time.sleep(0.05)
 
 
-class Driver(unittest.TestCase):
+class Driver:
+    """The tests, for each way to start the shards."""
     words = []
 
     def setUp(self):
@@ -75,19 +76,19 @@ class Driver(unittest.TestCase):
     def told(self):
         return sorted(path.read_text().strip() for path in self.folder.glob("out_?"))
 
-    def runs_every_shard_once(self):
+    def test_runs_every_shard_once(self):
         done = self.run_all()
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual((self.told(), self.begun()), (["1/4", "2/4", "3/4", "4/4"], ["1", "2", "3", "4"]))
         self.assertEqual((self.log / "shard_3.log").read_text(), "begins 3/4\n")
 
-    def does_nothing_when_all_is_done(self):
+    def test_does_nothing_when_all_is_done(self):
         self.run_all()
         done = self.run_all()
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(self.begun(), ["1", "2", "3", "4"])
 
-    def runs_only_what_failed_again(self):
+    def test_runs_only_what_failed_again(self):
         (self.folder / "fail_2").touch()
         done = self.run_all()
         self.assertEqual(done.returncode, 1)
@@ -99,7 +100,7 @@ class Driver(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual((len(self.told()), self.begun()), (4, ["1", "2", "2", "3", "4"]))
 
-    def goes_on_when_it_was_interrupted(self):
+    def test_goes_on_when_it_was_interrupted(self):
         for number in (3, 4):
             (self.folder / ("wait_%d" % number)).touch()
         run = self.start()
@@ -117,7 +118,7 @@ class Driver(unittest.TestCase):
         self.assertEqual(self.told(), ["1/4", "2/4", "3/4", "4/4"])
         self.assertEqual([self.begun().count(number) for number in "12"], [1, 1])
 
-    def makes_the_study_of_one_run(self):
+    def test_makes_the_study_of_one_run(self):
         plan = self.folder / "plan.yaml"
         plan.write_text(PLAN)
         study = [os.environ["FSR_DEVEL"] + "/lib/fsr_pressure_map/study", "--no-figures", "--threads", "1"]
@@ -134,7 +135,7 @@ class Driver(unittest.TestCase):
         undated = [re.sub(r'"date": ".*"', "", (folder / "results.json").read_text()) for folder in (whole, shared)]
         self.assertEqual(*undated)
 
-    def refuses_what_would_be_wrong(self):
+    def test_refuses_what_would_be_wrong(self):
         self.run_all(shards=1)
         for words, options, said in [
                 ([], {"shards": 2}, "command.json: shards is 2 here and 1 there; choose another --log"),
@@ -146,25 +147,10 @@ class Driver(unittest.TestCase):
             self.assertIn(said, done.stderr)
 
 
-class Parallel(Driver):
+class Parallel(Driver, unittest.TestCase):
     def test_runs_every_shard_once(self):
-        self.runs_every_shard_once()
+        super().test_runs_every_shard_once()
         self.assertEqual((self.log / "joblog").read_text().count("\n"), 5)
-
-    def test_does_nothing_when_all_is_done(self):
-        self.does_nothing_when_all_is_done()
-
-    def test_runs_only_what_failed_again(self):
-        self.runs_only_what_failed_again()
-
-    def test_goes_on_when_it_was_interrupted(self):
-        self.goes_on_when_it_was_interrupted()
-
-    def test_makes_the_study_of_one_run(self):
-        self.makes_the_study_of_one_run()
-
-    def test_refuses_what_would_be_wrong(self):
-        self.refuses_what_would_be_wrong()
 
 
 # --- a cluster of one machine -----------------------------------------------------------------------
@@ -258,7 +244,7 @@ class Cluster:
         shutil.rmtree(self.folder, ignore_errors=True)
 
 
-class Slurm(Driver):
+class Slurm(Driver, unittest.TestCase):
     words = ["--slurm"]
 
     @classmethod
@@ -266,24 +252,6 @@ class Slurm(Driver):
         cls.cluster = Cluster()
         cls.addClassCleanup(cls.cluster.stop)
         cls.cluster.start()
-
-    def test_runs_every_shard_once(self):
-        self.runs_every_shard_once()
-
-    def test_does_nothing_when_all_is_done(self):
-        self.does_nothing_when_all_is_done()
-
-    def test_runs_only_what_failed_again(self):
-        self.runs_only_what_failed_again()
-
-    def test_goes_on_when_it_was_interrupted(self):
-        self.goes_on_when_it_was_interrupted()
-
-    def test_makes_the_study_of_one_run(self):
-        self.makes_the_study_of_one_run()
-
-    def test_refuses_what_would_be_wrong(self):
-        self.refuses_what_would_be_wrong()
 
 
 def main():

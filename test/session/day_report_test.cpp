@@ -6,10 +6,12 @@
 
 #include "session/example_plans.h"
 #include "session/html_page.h"
+#include "support/holds.h"
 
 namespace {
 
 using namespace fsr::session;
+using test_support::holds;
 
 bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
@@ -104,10 +106,10 @@ TEST(HtmlPage, EscapesTitlesCellsItemsAndCaptions) {
 TEST(HtmlPage, AlignsNumbersToTheRight) {
   HtmlPage page("");
   page.table("", {}, {{"12.5", "-", "-3.1 to 4.2", "95 % limits", "flat"}});
-  EXPECT_TRUE(has(page.text(),
-                  "<tr><td class=\"number\">12.5</td><td class=\"number\">-</td><td>-3.1 to 4.2</td><td>95 % "
-                  "limits</td><td>flat</td></tr>"))
-      << page.text();
+  EXPECT_TRUE(
+      holds(page.text(),
+            {"<tr><td class=\"number\">12.5</td><td class=\"number\">-</td><td>-3.1 to 4.2</td><td>95 % "
+             "limits</td><td>flat</td></tr>"}));
 }
 
 TEST(DayPage, ShowsTheStateOfTheSessionAndWhatTheToolsPrinted) {
@@ -138,10 +140,9 @@ TEST(DayPage, EqualRejectionsAreOneRowWithTheirNumber) {
     day.state.remarks.push_back({1 + i % 2, Reason::kSheetOff, "silent at " + std::to_string(300 + i)});
   day.state.remarks.push_back({2, Reason::kLeak, "a leak"});
   const std::string page = dayHtml(day);
-  EXPECT_TRUE(has(page, "<td class=\"number\">13</td><td>Cycle 1 of 2")) << page;
-  EXPECT_TRUE(has(page, "rejected (sheet_off): silent at 300</td>"));
-  EXPECT_TRUE(has(page, "<td class=\"number\">1</td><td>Cycle 2 of 2")) << page;
-  EXPECT_TRUE(has(page, "rejected (leak): a leak</td>"));
+  EXPECT_TRUE(
+      holds(page, {"<td class=\"number\">13</td><td>Cycle 1 of 2", "rejected (sheet_off): silent at 300</td>",
+                   "<td class=\"number\">1</td><td>Cycle 2 of 2", "rejected (leak): a leak</td>"}));
   EXPECT_FALSE(has(page, "silent at 301"));
 }
 
@@ -161,8 +162,7 @@ TEST(DayPage, GivesFiveAdvicesAtMostAndWhatMattersMostFirst) {
     ++items;
   EXPECT_EQ(items, 5u) << advices;
   EXPECT_EQ(advices.find("<ul>\n<li>What train warns of: mount 5 differs</li>"), 0u) << advices;
-  EXPECT_TRUE(has(advices, "few scans or none: flat, 400+ kPa unloading: no scans (30 more below)</li>"))
-      << advices;
+  EXPECT_TRUE(holds(advices, {"few scans or none: flat, 400+ kPa unloading: no scans (30 more below)</li>"}));
   EXPECT_TRUE(has(page, "<li>cell 29</li>"));
   day.training = {"train", "too few cycles", "", nullptr};
   EXPECT_EQ(advicesOf(dayHtml(day)).find("<ul>\n<li>What train asks for: too few cycles</li>"), 0u);
@@ -179,8 +179,8 @@ TEST(DayPage, APartThatIsRefusedAppearsWithItsSentence) {
   day.training = {"train", "train: day_01_flat.bag has 1 surface <1>", "", nullptr};
   day.discrepancy = {"discrepancy", "too few cycles", "", nullptr};
   const std::string page = dayHtml(day);
-  EXPECT_TRUE(has(page, "train gave no result: train: day_01_flat.bag has 1 surface &lt;1&gt;")) << page;
-  EXPECT_TRUE(has(page, "discrepancy gave no result: too few cycles"));
+  EXPECT_TRUE(holds(page, {"train gave no result: train: day_01_flat.bag has 1 surface &lt;1&gt;",
+                           "discrepancy gave no result: too few cycles"}));
   EXPECT_FALSE(has(page, "kPa (rms)"));
   EXPECT_EQ(adviceOf(day, "discrepancy"), std::vector<std::string>{"too few cycles"});
 }
@@ -189,8 +189,7 @@ TEST(DayPage, AResultOfAnotherFormIsNamedAndBreaksNothing) {
   DayReport day = fullDay();
   day.training.result = Json{{"id", "df7d93648987"}};
   const std::string page = dayHtml(day);
-  EXPECT_TRUE(has(page, "What a tool wrote is incomplete")) << page;
-  EXPECT_TRUE(has(page, "Every step"));
+  EXPECT_TRUE(holds(page, {"What a tool wrote is incomplete", "Every step"}));
   day.training.result = trainingJson();
   day.training.result["scores"] = day.training.result["error_budget"] = nullptr;
   EXPECT_FALSE(has(dayHtml(day), "kPa (rms)"));

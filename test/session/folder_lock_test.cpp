@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "support/holds.h"
 #include "support/pty.h"
 
 namespace {
@@ -19,14 +20,8 @@ TEST(FolderLock, IsHeldByOneConductorOfAFolder) {
   const test_support::TemporaryFolder folder;
   std::filesystem::create_directory(folder.path("other"));
   auto first = std::make_unique<FolderLock>(folder.path(""));
-  try {
-    const FolderLock second(folder.path(""));
-    FAIL();
-  } catch (const fsr::settings::InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("another conductor leads a session in this folder"),
-              std::string::npos)
-        << error.what();
-  }
+  EXPECT_TRUE(test_support::holds(test_support::refusal([&] { const FolderLock second(folder.path("")); }),
+                                  {"another conductor leads a session in this folder"}));
   EXPECT_NO_THROW(FolderLock(folder.path("other")));
   first.reset();
   EXPECT_NO_THROW(FolderLock(folder.path("")));

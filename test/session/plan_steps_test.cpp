@@ -49,15 +49,6 @@ TEST(MountOrder, IsDrawnByTheSeed) {
   EXPECT_GT(orders.size(), 50u);
 }
 
-TEST(MountOrder, NumbersMountsAndVisits) {
-  const std::vector<PlannedMount> mounts = mountOrder(shipped("field_check"));
-  ASSERT_EQ(mounts.size(), 2u);
-  EXPECT_EQ(mounts[0].number, 1u);
-  EXPECT_EQ(mounts[0].visit, 1u);
-  EXPECT_EQ(mounts[1].number, 2u);
-  EXPECT_EQ(mounts[1].visit, 2u);
-}
-
 // 180 s to put it on; 5 cycles of 68 s to 660 kPa; 30 s, 2 cycles of 62 s, 30 s; 180 s; the same once more.
 TEST(SessionSteps, LastAsLongAsTheirPartsByHand) {
   const SessionPlan plan = planFrom(std::string(kSmall) + "conditioning: {rate: 20000}\n");
@@ -128,19 +119,6 @@ TEST(SessionSteps, ABreakIsBehindItsMountAndNotRecorded) {
   EXPECT_EQ(breaks[0].mount, 4u);
   EXPECT_EQ(breaks[0].duration, 7200);
   EXPECT_FALSE(breaks[0].recorded);
-}
-
-TEST(SessionSteps, AreToldInWords) {
-  const std::vector<SessionStep> steps = sessionSteps(shipped("paper"));
-  EXPECT_EQ(instruction(steps[0]), "Put the sheet on flat, mount 1.");
-  EXPECT_EQ(instruction(steps[1]),
-            "Cycle 1 of 10: fill to 620 kPa at 17 kPa/s, hold for 1 s, vent at 17 kPa/s.");
-  for (const SessionStep& step : sessionSteps(shipped("every_effect"))) {
-    const std::string sentence = instruction(step);
-    ASSERT_FALSE(sentence.empty());
-    EXPECT_EQ(sentence.back(), '.');
-    EXPECT_EQ(sentence.find("nan"), std::string::npos);
-  }
 }
 
 TEST(SimulatedStations, HaveTheDatesOfTheSession) {

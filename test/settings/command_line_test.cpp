@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "support/holds.h"
 
 namespace fsr::settings {
 namespace {
@@ -29,15 +30,14 @@ bool parse(CommandLine& line, std::vector<const char*> words) {
 
 std::string complaint(const std::vector<const char*>& words) {
   CommandLine line = tool();
-  try {
-    parse(line, words);
-    line.requiredText("output");
-    line.number("ambient", 0, Range{0, 120e3, "Pa"});
-    line.integer("ambient", 0, Range{0, 120e3, "Pa"});
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return test_support::refusal(
+      [&] {
+        parse(line, words);
+        line.requiredText("output");
+        line.number("ambient", 0, Range{0, 120e3, "Pa"});
+        line.integer("ambient", 0, Range{0, 120e3, "Pa"});
+      },
+      "accepted");
 }
 
 TEST(CommandLine, TakesFilesAndOptionsInAnyOrder) {
@@ -72,8 +72,7 @@ TEST(CommandLine, RefusesBadInputWithOneSentence) {
       {{"--no-scores=1"}, "no-scores"},
       {{"--no-scores", "--no-scores"}, "--no-scores"}};
   for (const auto& [words, named] : wrong) {
-    EXPECT_NE(complaint(words).find(named), std::string::npos) << complaint(words);
-    EXPECT_NE(complaint(words).find("; see train --help"), std::string::npos) << complaint(words);
+    EXPECT_TRUE(test_support::holds(complaint(words), {named, "; see train --help"}));
   }
   EXPECT_EQ(complaint({}), "--output FILE is missing; see train --help");
   EXPECT_EQ(complaint({"--output", "a", "--ambient", "high"}),
@@ -117,12 +116,8 @@ TEST(CommandLine, RefusesAnOutputThatIsAnInputHoweverItIsSpelled) {
     line.output("output", "FILE", "").output("report", "FILE", "").input("calibration", "FILE", "");
     std::vector<const char*> arguments = {"train"};
     for (const std::string& word : words) arguments.push_back(word.c_str());
-    try {
-      line.parse(static_cast<int>(arguments.size()), arguments.data(), std::cout);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "accepted";
+    return test_support::refusal(
+        [&] { line.parse(static_cast<int>(arguments.size()), arguments.data(), std::cout); }, "accepted");
   };
   EXPECT_EQ(complaint({bag, "--output", bag}),
             bag + ": would be overwritten, but is one of the inputs; give another name for the output");

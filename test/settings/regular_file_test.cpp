@@ -8,18 +8,14 @@
 
 #include "settings/settings.h"
 #include "settings/sha256.h"
+#include "support/holds.h"
 #include "support/pty.h"
 
 namespace fsr::settings {
 namespace {
 
 std::string complaint(const std::function<void()>& read) {
-  try {
-    read();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return test_support::refusal([&] { read(); }, "accepted");
 }
 
 TEST(RegularFile, ReadsToItsEnd) {

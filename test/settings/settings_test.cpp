@@ -9,16 +9,13 @@
 #include <fstream>
 #include <functional>
 
+#include "support/holds.h"
+
 namespace fsr::settings {
 namespace {
 
 std::string messageOf(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
+  return test_support::refusal([&] { action(); }, "no error");
 }
 
 const Range kRate{1.0, 1000.0, "Hz"};

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "support/holds.h"
 
 namespace fsr::settings {
 namespace {
@@ -27,12 +28,8 @@ TEST(Sha256, OfAFileIsThatOfItsBytes) {
 }
 
 TEST(Sha256, AFileThatIsNotThereIsNamed) {
-  try {
-    sha256OfFile("/nonexistent/file.bag");
-    FAIL() << "accepted";
-  } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(), "/nonexistent/file.bag: there is no such file");
-  }
+  EXPECT_EQ(test_support::refusal([&] { sha256OfFile("/nonexistent/file.bag"); }),
+            "/nonexistent/file.bag: there is no such file");
 }
 
 }  // namespace

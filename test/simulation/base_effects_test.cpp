@@ -142,51 +142,6 @@ TEST(WhiteNoise, HasItsDeviationAndNoMemory) {
   EXPECT_NEAR(lag / (expected * expected), 0, 5 / std::sqrt(20000.0));
 }
 
-// Counts of 200 taxels over 500 scans at one pressure, in the straight rig of 16 bits.
-std::vector<std::uint16_t> noisyCounts(const std::string& effect) {
-  SensorChain chain(test_support::straightRig(effect, 10, 20));
-  std::vector<std::uint16_t> counts;
-  for (std::uint64_t scan = 0; scan < 500; ++scan) {
-    const auto& read = chain.read({0.1 * double(scan), 310e3 + 3.1, scan});  // 30000.3 counts
-    counts.insert(counts.end(), read.begin(), read.end());
-  }
-  return counts;
-}
-
-TEST(WhiteNoise, GivesCountsThatAreNormalAndRoundedByTheConverter) {
-  constexpr double kSigma = 5, kLevel = 30000.3;
-  const auto counts = noisyCounts("  white_noise: {absolute: 5, relative: 0}\n");
-  const auto n = double(counts.size());
-  const std::vector<double> values(counts.begin(), counts.end());
-  EXPECT_NEAR(mean(values), kLevel, 5 * kSigma / std::sqrt(n));
-  const double variance = kSigma * kSigma + 1.0 / 12;  // Sheppard: rounding adds a twelfth of a step squared
-  EXPECT_NEAR(std::pow(deviation(values), 2), variance, 5 * variance * std::sqrt(2 / n));
-  // Each count's share is what the normal distribution holds between its two edges (chi squared).
-  const auto below = [&](double edge) { return 0.5 * std::erfc((kLevel - edge) / kSigma / std::sqrt(2)); };
-  double chi_squared = 0;
-  int classes = 0;
-  for (int count = 29988; count <= 30012; ++count, ++classes) {
-    const double expected = n * (below(count + 0.5) - below(count - 0.5));
-    const double found = double(std::count(counts.begin(), counts.end(), count));
-    chi_squared += (found - expected) * (found - expected) / expected;
-  }
-  // scipy.stats.chi2.ppf(1 - 1e-6, 25)  ->  73.9 (SciPy 1.10.1)
-  EXPECT_EQ(classes, 25);
-  EXPECT_LT(chi_squared, 73.9);
-}
-
-TEST(WhiteNoise, OfOneTaxelSaysNothingOfAnother) {
-  const auto counts = noisyCounts("  white_noise: {absolute: 5, relative: 0}\n");
-  for (const std::size_t distance : {1u, 20u, 200u}) {  // beside, in the next row, in the next scan
-    double covariance = 0;
-    const std::size_t pairs = counts.size() - distance;
-    for (std::size_t i = 0; i < pairs; ++i) {
-      covariance += (counts[i] - 30000.3) * (counts[i + distance] - 30000.3) / double(pairs);
-    }
-    EXPECT_NEAR(covariance / 25, 0, 5 / std::sqrt(double(pairs))) << distance;
-  }
-}
-
 TEST(WhiteNoise, BelongsToScanAndTaxelWhateverTheOrderAndSizeOfTheMatrix) {
   const char* noise = "  white_noise: {absolute: 30}\n";
   SensorChain small(rig(noise, 1, 2)), large(rig(noise, 5, 5));

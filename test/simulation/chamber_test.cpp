@@ -7,6 +7,7 @@
 
 #include "simulation/pressure_profile.h"
 #include "simulation/settings_text.h"
+#include "support/holds.h"
 
 namespace {
 
@@ -68,14 +69,9 @@ TEST(ChamberProtocol, ReadsOneRateForBothWays) {
 
 TEST(ChamberProtocol, RefusesMoreThanTheChambersRating) {
   const auto settings = Settings::fromText("peak: 800000", "a.yaml");
-  try {
-    fsr::simulation::readChamberProtocol(settings);
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(),
-                 "a.yaml: peak is 800000, but must be a number, "
-                 "1000 to 793000 Pa gauge (the chamber is rated at 793 kPa)");
-  }
+  EXPECT_EQ(test_support::refusal([&] { fsr::simulation::readChamberProtocol(settings); }),
+            "a.yaml: peak is 800000, but must be a number, "
+            "1000 to 793000 Pa gauge (the chamber is rated at 793 kPa)");
   ChamberProtocol protocol;
   protocol.peak = 793.1e3;
   EXPECT_THROW(validate(protocol, "~chamber"), InputError);

@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <set>
+#include <sstream>
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "simulation/pressure_profile.h"
@@ -125,39 +127,13 @@ bool triedByStrength(const EffectEntry& entry) {
 
 TEST(EffectLibrary, HoldsTheEffectsThatAreKnownByName) {
   const std::vector<std::string> ids = fsr::simulation::effectIds();
-  const std::set<std::string> known = {"static_curve",
-                                       "turn_on",
-                                       "bending_preload",
-                                       "bending_gain",
-                                       "hysteresis",
-                                       "creep",
-                                       "drift",
-                                       "temperature",
-                                       "break_in",
-                                       "wear",
-                                       "time_skew",
-                                       "scan_skew",
-                                       "crosstalk",
-                                       "saturation",
-                                       "supply_droop",
-                                       "mains_pickup",
-                                       "seal_leak",
-                                       "trapped_gas",
-                                       "repositioning",
-                                       "stuck_taxel",
-                                       "edge_stiffness",
-                                       "dead_taxel",
-                                       "row_fault",
-                                       "column_fault",
-                                       "compliance",
-                                       "shear",
-                                       "wrinkle",
-                                       "humidity",
-                                       "converter",
-                                       "white_noise",
-                                       "transducer_error",
-                                       "relaxation",
-                                       "session_offset"};
+  std::istringstream words(
+      "static_curve turn_on bending_preload bending_gain hysteresis creep drift temperature "
+      "break_in wear time_skew scan_skew crosstalk saturation supply_droop mains_pickup "
+      "seal_leak trapped_gas repositioning stuck_taxel edge_stiffness dead_taxel row_fault "
+      "column_fault compliance shear wrinkle humidity converter white_noise transducer_error "
+      "relaxation session_offset");
+  const std::set<std::string> known{std::istream_iterator<std::string>(words), {}};
   EXPECT_EQ(ids.size(), known.size());
   EXPECT_EQ(std::set<std::string>(ids.begin(), ids.end()), known);
   EXPECT_EQ(fsr::simulation::findEffect("hysterese"), nullptr);

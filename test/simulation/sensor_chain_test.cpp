@@ -39,20 +39,6 @@ TEST(SensorChain, GivesTheSameCountsFromTheSameSettings) {
   EXPECT_NE(scans(different, 0, 1500), counts);
 }
 
-TEST(SensorChain, GoesOnFromASavedState) {
-  SensorChain chain(demo()), resumed(demo());
-  scans(chain, 0, 700);
-  resumed.restore(chain.state());
-  EXPECT_EQ(scans(resumed, 700, 900), scans(chain, 700, 900));
-}
-
-TEST(SensorChain, ForgetsItsHistoryWhenReset) {
-  SensorChain chain(demo()), fresh(demo());
-  scans(chain, 0, 700);
-  chain.reset();
-  EXPECT_EQ(scans(chain, 0, 300), scans(fresh, 0, 300));
-}
-
 TEST(SensorChain, RefusesTheStateOfAnotherChain) {
   const auto bench =
       fsr::simulation::readSimulationFile(test_support::sourceDir() + "/config/simulation/bench.yaml");
@@ -73,14 +59,6 @@ TEST(SensorChain, UsesMostOfTheConvertersRangeWithoutClipping) {
   const auto largest = *std::max_element(counts.begin(), counts.end());
   EXPECT_GT(largest, 2500);
   EXPECT_LT(largest, 4095);
-}
-
-TEST(SensorChain, ReadsWithoutAllocating) {
-  SensorChain chain(demo());
-  chain.read({0, 100e3, 0});
-  const test_support::AllocationGuard guard;
-  for (std::uint64_t i = 1; i < 100; ++i) chain.read({0.1 * static_cast<double>(i), 100e3, i});
-  EXPECT_EQ(guard.allocations(), 0u);
 }
 
 }  // namespace

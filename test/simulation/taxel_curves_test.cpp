@@ -1,7 +1,6 @@
 #include "simulation/taxel_curves.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -10,6 +9,8 @@
 #include "simulation/effects/effect_library.h"
 #include "simulation/sensor_chain.h"
 #include "simulation/settings_text.h"
+#include "support/folder_test.h"
+#include "support/holds.h"
 #include "support/source_dir.h"
 
 namespace fsr::simulation {
@@ -17,28 +18,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class TaxelCurvesFile : public testing::Test {
+class TaxelCurvesFile : public test_support::FolderTest {
  protected:
-  void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) /
-              ("curves_" + std::to_string(::getpid()) + "_" +
-               std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
   std::string write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name) << text;
     return (folder_ / name).string();
   }
   std::string complaint(const std::string& text) const {
-    try {
-      readTaxelCurves(write("bad.csv", text));
-    } catch (const settings::InputError& error) {
-      return error.what();
-    }
-    return "";
+    return test_support::refusal([&] { readTaxelCurves(write("bad.csv", text)); });
   }
-  fs::path folder_;
 };
 
 // 1 x 2 taxels, flat and bent.

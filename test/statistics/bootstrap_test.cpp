@@ -173,32 +173,6 @@ TEST(Bootstrap, DependsOnSeedAndStream) {
   EXPECT_NE(bootstrap(meanOfUnits(kX70), options).low, low);
 }
 
-/// Units of five readings with a common deviation: the units are independent, the readings are not.
-Values clustered(std::uint64_t trial, std::size_t units) {
-  const fsr::statistics::RandomStream stream = fsr::statistics::randomStream(1, "clusters", trial);
-  Values x(5 * units);
-  for (std::size_t i = 0; i < x.size(); ++i) x[i] = stream.normal(i) + 2 * stream.normal(1000 + i / 5);
-  return x;
-}
-
-int coveredOf(int trials, std::size_t units, std::size_t each) {
-  fsr::statistics::BootstrapOptions options;
-  options.resamples = 399;
-  int covered = 0;
-  for (int trial = 0; trial < trials; ++trial) {
-    const BootstrapResult result = bootstrap(meanOfUnits(clustered(trial, units), each), options);
-    covered += result.low <= 0 && 0 <= result.high;
-  }
-  return covered;
-}
-
-TEST(Bootstrap, CoversTheTruthOnlyIfTheRightLevelIsResampled) {
-  constexpr int kTrials = 400;
-  EXPECT_TRUE(fitsLevel(coveredOf(kTrials, 8, 5), kTrials, 0.95));   // Student's interval: exact
-  EXPECT_TRUE(fitsLevel(coveredOf(kTrials, 30, 5), kTrials, 0.94));  // BCa: slightly too narrow with 30 units
-  EXPECT_LT(coveredOf(kTrials, 30, 1), kTrials * 0.75);
-}
-
 TEST(Bootstrap, IgnoresResamplesWhoseStatisticIsNotFinite) {
   BootstrapProblem problem = meanOfUnits(kX70);
   problem.statistic = [](const Indices& at) {

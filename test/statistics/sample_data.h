@@ -62,9 +62,4 @@ inline void expectNear(double value, double reference, double relative = kAgreem
   EXPECT_NEAR(value, reference, relative * std::abs(reference)) << "reference " << reference;
 }
 
-/// Whether a count of rejections fits a level: within 4 standard deviations of the binomial distribution.
-inline bool fitsLevel(int rejections, int trials, double level) {
-  return std::abs(rejections - trials * level) <= 4 * std::sqrt(trials * level * (1 - level));
-}
-
 }  // namespace sample_data

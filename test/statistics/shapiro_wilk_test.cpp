@@ -3,6 +3,7 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "statistics/random_stream.h"
 #include "statistics/sample_data.h"
+#include "support/holds.h"
 
 namespace {
 
@@ -47,28 +48,11 @@ TEST(ShapiroWilk, KeepsItsPrecisionFarFromZero) {
   expectR(mapped(uniform(17, 30), [](double u) { return 1e9 + u; }), 0.897620712169061, 0.00734898981414136);
 }
 
-TEST(ShapiroWilk, IsOneOnAStraightLine) {
-  EXPECT_NEAR(shapiroWilk({1, 2, 3}).statistic, 1, 1e-12);
-  EXPECT_NEAR(shapiroWilk({1, 2, 3}).p, 1, 1e-6);
-}
-
 TEST(ShapiroWilk, DoesNotDependOnScaleShiftMirrorOrOrder) {
   const double p = shapiroWilk(kA).p;
   expectNear(shapiroWilk(mapped(kA, [](double x) { return 7 - 3e5 * x; })).p, p);
   expectNear(shapiroWilk(mapped(kA, [](double x) { return 1e-200 * x; })).p, p);
   expectNear(shapiroWilk(Values(kA.rbegin(), kA.rend())).p, p);
-}
-
-TEST(ShapiroWilk, RejectsNormalSamplesAtItsLevel) {
-  constexpr int kTrials = 2000;
-  int rejections = 0;
-  for (int trial = 0; trial < kTrials; ++trial) {
-    const fsr::statistics::RandomStream stream = fsr::statistics::randomStream(1, "shapiro", trial);
-    Values sample(70);
-    for (std::size_t i = 0; i < sample.size(); ++i) sample[i] = stream.normal(i);
-    rejections += shapiroWilk(sample).p < 0.05;
-  }
-  EXPECT_TRUE(fitsLevel(rejections, kTrials, 0.05)) << rejections;
 }
 
 TEST(ShapiroWilk, RefusesUnusableData) {
@@ -81,13 +65,10 @@ TEST(ShapiroWilk, RefusesUnusableData) {
 }
 
 TEST(ShapiroWilk, SaysWhichValueIsBad) {
-  try {
-    shapiroWilk({1, std::nan(""), 3});
-    FAIL();
-  } catch (const fsr::settings::InputError& error) {
-    EXPECT_STREQ(error.what(),
-                 "Shapiro-Wilk test: value 2 of 3 is NaN; leave its unit out of every treatment");
-  }
+  EXPECT_EQ(test_support::refusal([&] {
+              shapiroWilk({1, std::nan(""), 3});
+            }),
+            "Shapiro-Wilk test: value 2 of 3 is NaN; leave its unit out of every treatment");
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "study/hold_out.h"
 #include "study/paper.h"
 #include "support/counts_in_file.h"
+#include "support/holds.h"
 #include "support/memory_rig.h"
 #include "support/source_dir.h"
 #include "support/study_readings.h"
@@ -245,12 +246,7 @@ TEST(Study, RefusesRecordingsWithoutAFlatSurface) {
   test_support::SyntheticRig rig = bentRig();
   rig.surfaces = {{"cylinder_13cm", 7.7}, {"cylinder_5cm", 20.0}};
   problem.recordings = {test_support::syntheticRecording(rig)};
-  try {
-    study(problem);
-    FAIL() << "accepted it";
-  } catch (const settings::InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("flat"), std::string::npos) << error.what();
-  }
+  EXPECT_TRUE(test_support::holds(test_support::refusal([&] { study(problem); }), {"flat"}));
 }
 
 TEST(Study, LeavesOutConstantTaxelsWithAWarning) {
@@ -490,12 +486,7 @@ TEST(PaperSetting, WithLoopAndCreepHasThePapersErrorsInAnotherOrder) {
 namespace {
 
 std::string refusal(const StudyProblem& problem) {
-  try {
-    study(problem);
-    return "";
-  } catch (const settings::InputError& error) {
-    return error.what();
-  }
+  return test_support::refusal([&] { study(problem); });
 }
 
 }  // namespace
