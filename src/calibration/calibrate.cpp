@@ -142,6 +142,7 @@ void Training::begin() {
     sections_.push_back(dataset::divideIntoSections(recording, options_.folds));
   plan_ = compensation::planScheme(options_.scheme, classes_.classes);
   sessions_ = findSessions(*recordings_, classes_);
+  referToTraining(*recordings_, plan_, sessions_);
   zeros_.clear();
   calibration_ = describe();
   sumReadings();
@@ -171,6 +172,7 @@ void Training::tables() {
     if (calibration_.no_model[taxel] == 0) remount_->measure(plan_, taxel, regressors_.whole, calibration_);
     training.partDone();
   });
+  rememberRests(sessions_, calibration_);
 }
 
 // The deviation grows by the error on another mount.

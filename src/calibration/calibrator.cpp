@@ -72,6 +72,7 @@ class Calibrator::Impl {
   void setSurface(const matrix::Surface& surface, double time);
   void setMask(const std::vector<std::uint8_t>& mask);
   void setTare(const std::vector<float>& offset);
+  void showTables(map::PressureMap& map) const;
   void markRest() {
     if (history_ != nullptr) history_->rest();
   }
@@ -333,6 +334,15 @@ void Calibrator::Impl::calibrate(const matrix::ScanView& scan, double time, map:
   out.state = state(time);
 }
 
+void Calibrator::Impl::showTables(map::PressureMap& map) const {
+  if (map.layout.size != layout_.size) return;
+  map::PressureMap answers = map;
+  lookUp(answers);
+  for (std::size_t i = 0; i < codes_.size(); ++i) {
+    if (!std::isnan(map.pressure[i])) map.pressure[i] = answers.pressure[i];
+  }
+}
+
 // After a jump back in time the last surface would be in the future; it counts as new from here on.
 void Calibrator::Impl::noteTime(double time) noexcept {
   if (time < last_time_) surface_time_ = std::min(surface_time_, time);
@@ -461,6 +471,10 @@ void Calibrator::setWrongSensor(bool wrong) {
 
 void Calibrator::calibrate(const matrix::ScanView& scan, double time, map::PressureMap& out) noexcept {
   impl_->calibrate(scan, time, out);
+}
+
+void Calibrator::showTables(map::PressureMap& map) const {
+  impl_->showTables(map);
 }
 
 const matrix::Layout& Calibrator::layout() const {

@@ -81,9 +81,9 @@ void requireMergeable(const MergePart& part) {
                                "change with them" +
                                kInstead + ", or merge calibrations of --history none");
   }
-  if (calibration.session_zero.expected()) {
+  if (calibration.session_zero.tare == SessionTare::kTrained) {
     throw settings::InputError(part.name +
-                               ": expects a tare at the start of a session, which its sums depend on" +
+                               ": was trained with the zero of each session, which its sums contain" +
                                kInstead + ", or merge calibrations of --zero none");
   }
   if (calibration.temperature.present()) {

@@ -17,6 +17,8 @@ using dataset::Recording;
 using settings::fixedKilopascals;
 using settings::roundedText;
 
+constexpr double kTareGain = 0.02;  // share of the error, from which on a tare is worth a sentence
+
 // Empty = the correction is worth a child; else why it is not.
 std::string whyNot(const CorrectionChoice& choice, const CheckOptions& options) {
   const double before = choice.rmse[0];
@@ -212,10 +214,31 @@ class CorrectionDecision {
   CorrectionCheck& correction_;
 };
 
+// Asks whether one tare at the start of each session is enough where the calibration expects none.
+void adviseTare(const Calibration& calibration, const std::vector<Recording>& recordings,
+                const CheckOptions& options, CheckResult& result) {
+  Calibration tared = calibration;
+  tared.session_zero.tare = calibration::SessionTare::kTablesAlone;
+  const MapErrors map = errorsOfMap(tared, recordings, options.limits);
+  std::vector<std::string>& remarks = result.map.remarks;
+  remarks.insert(remarks.end(), map.not_tared.begin(), map.not_tared.end());
+  const double before = map.rmse_without_tare, gain = 1 - map.whole.rmse / before;
+  if (!(gain >= kTareGain)) return;
+  const std::string advice = "one tare takes " + settings::percentText(gain) + " off (from " +
+                             settings::fixedText(before / 1000, 1) + " to " +
+                             fixedKilopascals(map.whole.rmse, 1) + ")";
+  if (!map.faults.empty()) {
+    remarks.push_back(advice + ", which is not enough");
+    return;
+  }
+  result.verdict = Verdict::kTare;
+  result.reasons = {advice};
+}
+
 }  // namespace
 
 std::string verdictName(Verdict verdict) {
-  constexpr const char* kNames[] = {"still good", "corrected", "cannot tell", "recalibrate"};
+  constexpr const char* kNames[] = {"still good", "corrected", "cannot tell", "tare", "recalibrate"};
   return kNames[static_cast<std::size_t>(verdict)];
 }
 
@@ -239,11 +262,14 @@ CheckResult check(const Calibration& calibration, const std::vector<Recording>& 
   result.reasons = result.map.faults;
   if (!result.reasons.empty()) result.verdict = Verdict::kRecalibrate;
   if (calibration.shape.present()) result.at_rest = calibration::checkShapes(calibration, recordings);
-  if (!options.correct) return result;
-  const CycleReadings readings = gatherCycles(calibration, recordings);
-  if (options.same_mount) requireOneMount(readings);
-  const CorrectionFit fit(readings);
-  CorrectionDecision(calibration, recordings, options, fit, result).run();
+  if (options.correct) {
+    const CycleReadings readings = gatherCycles(calibration, recordings);
+    if (options.same_mount) requireOneMount(readings);
+    const CorrectionFit fit(readings);
+    CorrectionDecision(calibration, recordings, options, fit, result).run();
+  }
+  if (result.verdict == Verdict::kRecalibrate && !calibration.session_zero.expected())
+    adviseTare(calibration, recordings, options, result);
   return result;
 }
 

@@ -17,10 +17,11 @@ enum class Verdict {
   kStillGood,   ///< errors are as in training, and no correction is worth a new calibration file
   kCorrected,   ///< a correction wins on cycles that were left out, and mounts alone do not do as much
   kCannotTell,  ///< a correction would win, but mounts alone may do as much
+  kTare,        ///< errors are larger than allowed, but not after one tare at the start of each session
   kRecalibrate  ///< errors are larger than allowed, after the best correction where one was asked for
 };
 
-/// "still good", "corrected", "cannot tell", "recalibrate".
+/// "still good", "corrected", "cannot tell", "tare", "recalibrate".
 std::string verdictName(Verdict verdict);
 
 /// All defaults of a check.

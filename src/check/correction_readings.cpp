@@ -4,6 +4,7 @@
 
 #include "calibration/sources.h"
 #include "calibration/stages/session/session_rests.h"
+#include "calibration/stages/session/tare.h"
 #include "calibration/stages/temperature/temperature_course.h"
 #include "calibration/stages/temperature/temperature_state.h"
 #include "check/check.h"
@@ -188,18 +189,20 @@ class Gathering {
     const std::vector<std::size_t> scans = calibration::restAtStart(recording, condition);
     if (scans.empty()) {
       result_.remarks.push_back(recording.name + ", " + recording.conditions[condition].name +
-                                ": does not start with 2 s at rest at the lowest pressure, so that it is "
-                                "rechecked without the tare that the calibration expects");
+                                ": not tared, because " + calibration::whyNoRest(recording, condition));
       return;
     }
     TaxelReadings& rest = result_.stays.back().rest;
     rest.resize(taxels_);
+    calibration::Calibrator calibrator(parent_.tables, parent_.layout);
+    calibrator.setSurface(recording.conditions[condition], 0);
+    const std::vector<float> training = calibration::restOfTraining(parent_.session_zero, calibrator);
     dataset::ScanCounts counts(recording);
     for (const std::size_t i : scans) {
       const std::uint16_t* const codes = counts[i];
       for (std::size_t taxel = 0; taxel < taxels_; ++taxel) {
         if (codes[taxel] < parent_.tables.full_scale && hasModel(taxel))
-          rest[taxel].push_back({codes[taxel], static_cast<float>(targets[i])});
+          rest[taxel].push_back({codes[taxel], static_cast<float>(targets[i]) + training[taxel]});
       }
     }
   }

@@ -9,6 +9,7 @@
 #include "calibration/sources.h"
 #include "calibration/stages/memory/history_parts.h"
 #include "calibration/stages/session/session_check.h"
+#include "calibration/stages/session/session_rests.h"
 #include "calibration/stages/temperature/temperature_course.h"
 #include "dataset/count_readers.h"
 #include "dataset/protocols.h"
@@ -164,9 +165,13 @@ class Checker {
     const std::size_t condition = recording.condition[scan];
     const matrix::Surface& surface = recording.conditions[condition];
     if (surfaces_.try_emplace(surface.name).second) order_.push_back(surface.name);
-    const std::vector<float> offset = calibration::tareAtStart(calibration_, recording, condition);
-    if (offset.empty() && calibration_.session_zero.expected())
-      without_rest_.insert(recording.name + ", " + surface.name);
+    std::vector<float> offset;
+    if (calibration_.session_zero.expected()) {
+      offset = calibration::tareAtStart(calibration_, recording, condition);
+      if (offset.empty())
+        not_tared_.insert(recording.name + ", " + surface.name + ": not tared, because " +
+                          calibration::whyNoRest(recording, condition));
+    }
     for (LiveMap& one : maps) {
       one.calibrator.setSurface(surface, recording.time[scan]);
       if (!one.tared) continue;
@@ -239,12 +244,8 @@ class Checker {
         "each session is checked with a tare at its start, as the calibration expects; without it the RMSE "
         "is " +
         settings::fixedKilopascals(errors.rmse_without_tare, 1));
-    for (const std::string& session : without_rest_) {
-      errors.remarks.push_back(
-          session +
-          ": does not start with 2 s at rest at the lowest pressure, so that the session "
-          "is checked without the tare that the calibration expects");
-    }
+    errors.not_tared.assign(not_tared_.begin(), not_tared_.end());
+    errors.remarks.insert(errors.remarks.end(), not_tared_.begin(), not_tared_.end());
   }
 
   const Calibration& calibration_;
@@ -259,7 +260,7 @@ class Checker {
   std::vector<Sums> taxels_;
   std::vector<PartSums> parts_;
   std::vector<std::size_t> dead_, stuck_;
-  std::set<std::string> without_rest_;  // sessions
+  std::set<std::string> not_tared_;  // a sentence for each session
 };
 
 std::string allowed(const std::string& limit) {

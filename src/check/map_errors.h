@@ -55,6 +55,7 @@ struct MapErrors {
   /// Where the calibration expects a tare, each session was checked with the zero of the rest at its start
   /// (where it has one). RMSE of all readings without it [Pa]; NaN = no tare is expected.
   double rmse_without_tare = std::numeric_limits<double>::quiet_NaN();
+  std::vector<std::string> not_tared;  ///< sessions without a tare, and why, a sentence each
 };
 
 /// Scores a calibration on recordings through the same live path as the calibration node. The expected error

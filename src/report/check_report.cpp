@@ -159,6 +159,8 @@ std::string nextStep(const check::CheckResult& result) {
       return "use the corrected calibration";
     case check::Verdict::kCannotTell:
       return "record more mounts";
+    case check::Verdict::kTare:
+      return "tare the unloaded sheet at the start of each session (~tare)";
     case check::Verdict::kRecalibrate:
       break;
   }

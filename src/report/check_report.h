@@ -9,7 +9,7 @@ namespace fsr::report {
 /// A check for the terminal: errors of the map by surface, how the sheet rests, what a correction is worth,
 /// remarks, one line that says what the map is good for, and the verdict with its reasons in the last lines:
 /// "Still good.", "Still good as far as these bags show.", "Corrected: ...", "Cannot tell: ...",
-/// "Recalibrate, because ...".
+/// "Tare: ...", "Recalibrate, because ...".
 std::string checkText(const check::CheckResult& result, const calibration::Calibration& calibration);
 
 /// Files that a check writes; empty = not wanted.

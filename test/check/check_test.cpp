@@ -12,6 +12,7 @@
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "fsr_pressure_map/calibration/calibrator.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "support/memory_rig.h"
 #include "support/source_dir.h"
 #include "support/synthetic_recording.h"
 
@@ -110,7 +111,8 @@ std::vector<Recording> mounts(const std::vector<double>& gains, const Change& ch
 std::string said(const CheckResult& result) {
   std::string text = verdictName(result.verdict);
   for (const std::string& reason : result.reasons) text += '\n' + reason;
-  for (const std::string& remark : result.correction->remarks) text += '\n' + remark;
+  for (const std::string& remark : result.correction ? result.correction->remarks : result.map.remarks)
+    text += '\n' + remark;
   return text;
 }
 
@@ -317,13 +319,46 @@ TEST(Check, TaresSessionsWhereTheCalibrationExpectsIt) {
   const CheckResult without = decide(tared, {plain});
   EXPECT_NE(without.verdict, Verdict::kStillGood);
   ASSERT_FALSE(without.correction->remarks.empty());
-  EXPECT_NE(without.correction->remarks.front().find("does not start with 2 s at rest"), std::string::npos);
+  EXPECT_NE(
+      without.correction->remarks.front().find(": not tared, because it does not start with 2 s at rest"),
+      std::string::npos);
   const CheckResult with = decide(tared, {withRest(plain)});
   EXPECT_EQ(with.verdict, Verdict::kStillGood) << said(with);
   EXPECT_TRUE(with.correction->remarks.empty());
   const CheckResult of_worn = decide(tared, {withRest(changed(plain, worn))}, sameMount());
   ASSERT_TRUE(of_worn.child.has_value()) << said(of_worn);
   EXPECT_NEAR(of_worn.correction->choice.changes[0].gain, 0.95, 0.015);
+}
+
+// A session that reads `offset` more [Pa].
+Recording shiftedSession(double offset) {
+  test_support::MemoryRig remembering;
+  remembering.loop = 0.05;
+  Recording recording = test_support::memorySession(2, 0, remembering);
+  return changed(recording, [=](double reading, std::size_t) { return reading + offset * 5e-3; });
+}
+
+TEST(Check, AdvisesATareWhereItTakesTheErrorAway) {
+  fsr::calibration::CalibrationProblem problem;
+  problem.recordings = {shiftedSession(0)};
+  problem.options.history = {false, fsr::calibration::HistoryFamily::kNone};
+  problem.options.zero = fsr::calibration::ZeroChoice::kNone;
+  const Calibration calibration = fsr::calibration::calibrate(problem);
+  const Recording shifted = shiftedSession(25e3);
+  const CheckResult advised = fsr::check::check(calibration, {shifted}, {});
+  EXPECT_EQ(advised.verdict, Verdict::kTare) << said(advised);
+  ASSERT_EQ(advised.reasons.size(), 1u);
+  EXPECT_EQ(advised.reasons.front().find("one tare takes "), 0u) << advised.reasons.front();
+  EXPECT_NE(advised.reasons.front().find(" % off (from 2"), std::string::npos) << advised.reasons.front();
+  Recording loaded = shifted;
+  for (std::size_t i = 0; i < 60; ++i) loaded.pressure[i] = 300e3;
+  const CheckResult not_tared = fsr::check::check(calibration, {loaded}, {});
+  EXPECT_EQ(not_tared.verdict, Verdict::kRecalibrate);
+  EXPECT_NE(
+      said(not_tared).find("session_2.bag, flat: not tared, because it does not start with 2 s at rest: "
+                           "the chamber is at 300.0 kPa, which is a load"),
+      std::string::npos)
+      << said(not_tared);
 }
 
 TEST(Check, RefusesWhatDoesNotFitTheParent) {

@@ -34,7 +34,7 @@ struct HistoryChoice {
 
 /// Whether the calibration expects a tare at the start of a session.
 enum class ZeroChoice {
-  kAuto,    ///< by leaving out whole sessions
+  kAuto,    ///< unless sessions that were left out speak against it
   kNone,    ///< no
   kSession  ///< yes
 };
@@ -202,13 +202,17 @@ enum class SessionTare {
   kTrained       ///< likewise; the tables were trained with the zero of each session
 };
 
-/// A tare at rest at the start of a session as part of the model. The zero of a taxel is what its table
-/// answers at rest.
+/// A tare at rest at the start of a session as part of the model. It subtracts from the answers of a taxel by
+/// how much its answer at rest differs from that of the training.
 struct SessionZero {
   SessionTare tare = SessionTare::kNone;
-  /// On sessions that training left out, each with the same weight, without and with the tare [Pa].
+  /// Over the readings of sessions that training left out, without and with the tare [Pa]; NaN = none was
+  /// left out.
   double rmse_without = std::numeric_limits<double>::quiet_NaN();
   double rmse = std::numeric_limits<double>::quiet_NaN();
+  /// [taxels x classes of the tables], taxel by taxel: what the table answers too much at the rests of its
+  /// training [Pa]. It is not zero where the sheet has a loop or creeps. Empty = not known, taken as 0.
+  std::vector<float> at_rest{};
 
   bool expected() const { return tare != SessionTare::kNone; }
 };

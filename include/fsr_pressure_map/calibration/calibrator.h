@@ -108,6 +108,10 @@ class Calibrator {
   /// backwards (a looped bag), windows and ages start again.
   void calibrate(const matrix::ScanView& scan, double time, map::PressureMap& out) noexcept;
 
+  /// Replaces the pressures in the map of the last scan, except NaN, by the answers of the tables after the
+  /// tare, without memory and temperature: what a tare is measured with.
+  void showTables(map::PressureMap& map) const;
+
   const matrix::Layout& layout() const;
   /// Memory of the tables [bytes].
   std::size_t bytes() const;

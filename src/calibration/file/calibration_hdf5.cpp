@@ -198,7 +198,7 @@ void calibrationMembers(hdf5::Members& file, Calibration& calibration, Calibrati
   tablesMembers(file, tables);
   ruleMembers(file, tables);
   historyMembers(file, calibration.history);
-  sessionMembers(file, calibration.session_zero);
+  sessionMembers(file, calibration.session_zero, tables.tables.size());
   temperatureMembers(file, calibration.temperature);
   shapeMembers(file, calibration.shape);
   compensation::TrainingStatistics statistics;

@@ -63,7 +63,8 @@ Calibration readCalibration(const hdf5::Reader& reader, std::uint64_t schema, Ca
 // is.
 void ruleMembers(hdf5::Members& file, compensation::CurvatureTables& tables);
 void historyMembers(hdf5::Members& file, HistoryModel& model);
-void sessionMembers(hdf5::Members& file, SessionZero& zero);
+/// `tables`: number of them.
+void sessionMembers(hdf5::Members& file, SessionZero& zero, std::size_t tables);
 void temperatureMembers(hdf5::Members& file, TemperatureModel& model);
 void shapeMembers(hdf5::Members& file, ShapeModel& model);
 void coverageMembers(hdf5::Members& file, dataset::Coverage& coverage,

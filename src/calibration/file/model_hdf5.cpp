@@ -14,7 +14,8 @@ const hdf5::Names<compensation::BlendRule> kBlends = {{compensation::BlendRule::
                                                       {compensation::BlendRule::kKernel, "kernel"},
                                                       {compensation::BlendRule::kInterpolate, "interpolate"},
                                                       {compensation::BlendRule::kByName, "by_name"}};
-const hdf5::Names<SessionTare> kTares = {{SessionTare::kTablesAlone, "tables_alone"},
+const hdf5::Names<SessionTare> kTares = {{SessionTare::kNone, "none"},
+                                         {SessionTare::kTablesAlone, "tables_alone"},
                                          {SessionTare::kTrained, "trained"}};
 const hdf5::Names<FieldFamily> kFamilies = {{FieldFamily::kGaussian, "gaussian"},
                                             {FieldFamily::kMatern, "matern"}};
@@ -126,17 +127,26 @@ void historyMembers(hdf5::Members& file, HistoryModel& model) {
                "must have one for each time_constant");
 }
 
-void sessionMembers(hdf5::Members& file, SessionZero& zero) {
-  if (!file.group("/session", zero.expected())) return;
+void sessionMembers(hdf5::Members& file, SessionZero& zero, std::size_t tables) {
+  if (!file.group("/session", zero.expected() || !zero.at_rest.empty())) return;
   file.attribute("tare", zero.tare, kTares);
-  file.note("meaning",
-            "a tare is due at rest at the start of a session (one surface and mount); RMSE on sessions "
-            "that were left out, without and with it");
+  file.note(
+      "meaning",
+      "whether a tare is due at rest at the start of a session (one surface and mount); RMSE on sessions "
+      "that were left out, without and with it, NaN = none was left out");
   file.attribute("rmse_without", zero.rmse_without);
   file.attribute("rmse", zero.rmse);
   file.note("unit", "Pa");
-  file.within("rmse_without", {zero.rmse_without}, 0, kLargestPressure);
-  file.within("rmse", {zero.rmse}, 0, kLargestPressure);
+  const auto within = [&](const char* name, double rmse) {
+    if (!std::isnan(rmse)) file.within(name, {rmse}, 0, kLargestPressure);
+  };
+  within("rmse_without", zero.rmse_without);
+  within("rmse", zero.rmse);
+  file.column("at_rest", zero.at_rest, "Pa",
+              "[taxels x classes] what each table answers too much at the rests of its training");
+  file.within("at_rest", {zero.at_rest.begin(), zero.at_rest.end()}, -kLargestPressure, kLargestPressure);
+  file.require(zero.at_rest.empty() || zero.at_rest.size() == tables, "at_rest",
+               "must have one value for each table");
 }
 
 void temperatureMembers(hdf5::Members& file, TemperatureModel& model) {

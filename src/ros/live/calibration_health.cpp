@@ -15,6 +15,7 @@ using fsr::map::MapState;
 namespace flag = fsr::map::taxel_flag;
 
 constexpr std::size_t kListedTaxels = 10;
+constexpr double kWorthATare = 0.98;  // of the error without it
 
 std::size_t flagged(const fsr::map::PressureMap& map, std::uint16_t flags) {
   const auto has = [flags](std::uint16_t f) { return (f & flags) != 0; };
@@ -119,13 +120,17 @@ std::string stateSentence(const CalibrationHealth& health) {
 }
 
 std::string tareSentence(const CalibrationHealth& health) {
+  if (health.tare) return "";
   const fsr::calibration::SessionZero& zero = health.session_zero;
-  if (!zero.expected() || health.tare) return "";
-  const auto kilopascal = [](double pressure) { return fsr::settings::roundedText(pressure / 1000, 3); };
-  return "a tare at rest is due: the calibration expects one at the start of a session, which made the error "
-         "of sessions that training left out " +
-         kilopascal(zero.rmse) + " instead of " + kilopascal(zero.rmse_without) +
-         " kPa; unload the sheet and call ~tare";
+  if (!zero.expected()) return "not tared, because the calibration expects no tare";
+  std::string text = "not tared, because ";
+  text += health.tare_refusal.empty() ? "no tare was taken on this surface and mount" : health.tare_refusal;
+  if (!std::isnan(zero.rmse)) {
+    text += "; a tare at rest made the error of sessions that training left out " +
+            fsr::settings::roundedKilopascals(zero.rmse, 3) + " instead of " +
+            fsr::settings::roundedKilopascals(zero.rmse_without, 3);
+  }
+  return text + "; unload the sheet and call ~tare";
 }
 
 std::string shapeSentence(const CalibrationHealth& health) {
@@ -138,8 +143,10 @@ void judgeCalibration(const CalibrationHealth& health, Status& status) {
     status.summary(Level::ERROR, "waiting for a calibration: " + health.complaint);
   } else {
     status.summary(Level::OK, health.info.scheme + " from " + health.info.path);
-    const std::string due = tareSentence(health);
-    if (!due.empty()) status.summary(Level::WARN, due);
+    const fsr::calibration::SessionZero& zero = health.session_zero;
+    // Where training could not tell what a tare is worth, the value says it, without a warning.
+    if (zero.rmse < kWorthATare * zero.rmse_without && !health.tare)
+      status.summary(Level::WARN, tareSentence(health));
     const std::string misplaced = shapeSentence(health);
     if (!misplaced.empty()) status.summary(Level::WARN, misplaced);
   }
@@ -153,7 +160,7 @@ void judgeCalibration(const CalibrationHealth& health, Status& status) {
   status.add("surface", health.surface.name);
   status.add("mount", health.surface.mount);
   addShape(health, status);
-  status.add("tare", health.tare ? health.tare->date : "none");
+  status.add("tare", health.tare ? health.tare->date : tareSentence(health));
 }
 
 void judgeMaps(const CalibrationHealth& before, const CalibrationHealth& now, double seconds,

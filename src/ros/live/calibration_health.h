@@ -37,7 +37,7 @@ std::string stateSentence(const CalibrationHealth& health);
 /// That the surface is not the one that the sheet rests on; else empty.
 std::string shapeSentence(const CalibrationHealth& health);
 
-/// That a tare is due and what it is worth, if the calibration expects one and none is set; else empty.
+/// Why the maps are not tared, and what a tare is worth if the calibration expects one; empty = they are.
 std::string tareSentence(const CalibrationHealth& health);
 
 }  // namespace fsr_ros

@@ -100,7 +100,9 @@ void LiveCalibration::calibrate(const fsr_pressure_map::MatrixFrame& scan,
   ++scans_;
   watchShape(view, time);
   if (measurement_) {
-    measured_ |= measurement_->add(map_, time);
+    fsr::map::PressureMap tables = map_;
+    if (loaded_) loaded_->calibrator.showTables(tables);
+    measured_ |= measurement_->add(tables, time);
     progress_.notify_all();
   }
   map.header = scan.header;
@@ -120,7 +122,10 @@ void LiveCalibration::setSurface(const fsr_pressure_map::SurfaceCurvature& messa
     surface_ = {};
     surface_complaint_ = error.what();
   }
-  if (!fsr::matrix::sameCondition(before, surface_)) forgetShape();
+  if (!fsr::matrix::sameCondition(before, surface_)) {
+    forgetShape();
+    tare_refusal_.clear();
+  }
   applySurface();
   applyTare();
 }
@@ -287,6 +292,7 @@ CalibrationHealth LiveCalibration::health() const {
   health.board = board_.serial;
   health.temperature = temperature_;
   health.tare = tare_.tare();
+  health.tare_refusal = tare_refusal_;
   health.shape = shape_;
   health.marked = marked_;
   health.estimates_curvature = settings_.estimates_curvature;

@@ -58,6 +58,7 @@ struct CalibrationHealth {
   bool corrects_temperature = false;  ///< the calibration has a model of the temperature
   double temperature = std::numeric_limits<double>::quiet_NaN();  ///< [degree Celsius]; NaN = unknown
   std::optional<fsr::calibration::Tare> tare;
+  std::string tare_refusal;  ///< why the last tare on this surface was refused; empty = none was
   fsr::calibration::SessionZero session_zero;  ///< of the calibration in use
   fsr::calibration::ShapeCheck shape;          ///< of the surface in use; sentence empty = not compared yet
   std::string marked;                ///< what was done at the last marked rest; empty = none was marked
@@ -165,6 +166,7 @@ class LiveCalibration {
   std::vector<std::uint8_t> mask_;  // set by the service, or stored by it
 
   TareKeeper tare_;
+  std::string tare_refusal_;                                      // of the last tare on this surface
   std::optional<fsr::calibration::TareMeasurement> measurement_;  // set while tare() waits
   fsr::calibration::Tare measured_for_;  // calibration and surface, which must not change meanwhile
   bool measured_ = false;

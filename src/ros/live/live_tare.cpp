@@ -35,11 +35,16 @@ std::string LiveCalibration::tare(double patience) {
   fsr::calibration::Tare tare;
   try {
     tare = measureTare(lock, patience);
+  } catch (const fsr::settings::InputError& refusal) {
+    measurement_.reset();
+    tare_refusal_ = refusal.what();
+    throw;
   } catch (...) {
     measurement_.reset();
     throw;
   }
   measurement_.reset();
+  tare_refusal_.clear();
   lock.unlock();  // no scan waits for the disk
   {
     const std::lock_guard<std::mutex> files(files_);
@@ -81,7 +86,9 @@ fsr::calibration::Tare LiveCalibration::measureTare(std::unique_lock<std::mutex>
     return measured_;
   });
   fsr::calibration::Tare tare = measured_for_;
-  tare.offset = measurement_->offset(tare_.review(id(), surface_received_ ? &surface_ : nullptr));
+  tare.offset =
+      measurement_->offset(tare_.review(id(), surface_received_ ? &surface_ : nullptr),
+                           fsr::calibration::restOfTraining(loaded_->session_zero, loaded_->calibrator));
   tare.date = nowUtc();
   return tare;
 }

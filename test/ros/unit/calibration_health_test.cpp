@@ -139,20 +139,34 @@ TEST(CalibrationHealth, SaysWhatItWaitsForWithoutACalibration) {
   EXPECT_EQ(status.message, "waiting for a calibration: " + health.complaint);
 }
 
-TEST(CalibrationHealth, SaysThatATareIsDueAndWhatItIsWorth) {
+TEST(CalibrationHealth, SaysWhyTheMapIsNotTaredAndWhatATareIsWorth) {
   CalibrationHealth health = healthy();
   health.session_zero = {fsr::calibration::SessionTare::kTrained, 9060, 1210};
   Status status;
   judgeCalibration(health, status);
   EXPECT_EQ(status.level, Level::WARN);
-  EXPECT_EQ(status.message,
-            "a tare at rest is due: the calibration expects one at the start of a session, which made the "
-            "error of sessions that training left out 1.21 instead of 9.06 kPa; unload the sheet and call "
-            "~tare");
+  EXPECT_EQ(
+      status.message,
+      "not tared, because no tare was taken on this surface and mount; a tare at rest made the error of "
+      "sessions that training left out 1.21 kPa instead of 9.06 kPa; unload the sheet and call ~tare");
+  health.tare_refusal = "the tare is refused: the taxel in row 0, column 0 reads 45 kPa at rest";
+  EXPECT_EQ(tareSentence(health).find("not tared, because " + health.tare_refusal), 0u);
   health.tare.emplace();
   judgeCalibration(health, status);
   EXPECT_EQ(status.level, Level::OK);
-  EXPECT_EQ(tareSentence(healthy()), "") << "a calibration that expects none";
+  EXPECT_EQ(tareSentence(health), "");
+  EXPECT_EQ(tareSentence(healthy()), "not tared, because the calibration expects no tare");
+}
+
+TEST(CalibrationHealth, WarnsOfNoTareThatMayBeWorthNothing) {
+  CalibrationHealth health = healthy();
+  health.session_zero.tare = fsr::calibration::SessionTare::kTablesAlone;
+  Status status;
+  judgeCalibration(health, status);
+  EXPECT_EQ(status.level, Level::OK) << status.message;
+  EXPECT_EQ(
+      tareSentence(health),
+      "not tared, because no tare was taken on this surface and mount; unload the sheet and call ~tare");
 }
 
 // What the panel reads.

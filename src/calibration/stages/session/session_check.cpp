@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "calibration/stages/session/session_rests.h"
+#include "calibration/stages/session/tare.h"
 #include "dataset/count_readers.h"
 #include "fsr_pressure_map/calibration/calibrator.h"
 
@@ -29,9 +30,10 @@ std::vector<float> tareAtStart(const Calibration& calibration, const dataset::Re
       count[i] += 1;
     }
   }
+  const std::vector<float> training = restOfTraining(calibration.session_zero, calibrator);
   std::vector<float> offset(taxels, 0.0F);
   for (std::size_t i = 0; i < taxels; ++i) {
-    if (count[i] > 0) offset[i] = static_cast<float>(sum[i] / count[i]);
+    if (count[i] > 0) offset[i] = static_cast<float>(sum[i] / count[i]) - training[i];
   }
   return offset;
 }

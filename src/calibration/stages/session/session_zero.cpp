@@ -3,11 +3,15 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "calibration/stages/deviation/held_out_scoring.h"
 #include "dataset/count_readers.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "matrix/for_each_taxel.h"
+#include "settings/number_text.h"
+#include "statistics/paired_tests.h"
+#include "statistics/samples.h"
 
 namespace fsr::calibration {
 
@@ -70,7 +74,7 @@ SessionTables::SessionTables(const HistoryProblem& problem, const Sessions& sess
       taxel_(taxel),
       readings_(sectionedReadings(scans, sessions.most, full_scale, taxel, problem.regressor)) {
   for (const Session& session : sessions.all)
-    rests_.push_back(readingsAtRest(problem.recordings[session.recording], session.rest, taxel));
+    rests_.push_back(readingsAtRest(problem.recordings[session.recording], session.rest.scans, taxel));
 }
 
 bool SessionTables::leftOut(const Session& session, std::optional<std::uint32_t> number) const {
@@ -122,6 +126,19 @@ SessionTables::Tables SessionTables::train(std::optional<std::uint32_t> left_out
 
 std::optional<double> SessionTables::zeroOf(std::size_t session, const Tables& tables) const {
   return zeroAtRest(rests_[session], tables[sessions_.all[session].curvature_class]);
+}
+
+// What the tables answer too much at the rests of the sessions that trained the model, mean over them.
+double SessionTables::zeroInTraining(std::optional<std::uint32_t> left_out, std::size_t model,
+                                     const Tables& tables) const {
+  const auto of_model = trainedSessions(left_out);
+  double sum = 0, count = 0;
+  for (const std::size_t s : of_model[model]) {
+    const std::optional<double> zero = zeroOf(s, tables);
+    sum += zero.value_or(0);
+    count += zero ? 1 : 0;
+  }
+  return count > 0 ? sum / count : 0.0;
 }
 
 // The sessions that a zero can be found for, by the model that they train.
@@ -235,8 +252,12 @@ void SessionTables::addErrors(std::size_t number, const Tables& plain, const Tab
   const std::size_t k = session.curvature_class;
   if (plain[k].empty() || zeroed[k].empty()) return;
   const std::array<const std::vector<double>*, kSessionAnswers> tables = {&plain[k], &plain[k], &zeroed[k]};
-  const std::array<double, kSessionAnswers> zero = {0, zeroOf(number, plain).value_or(0),
-                                                    zeroOf(number, zeroed).value_or(0)};
+  const std::size_t model = problem_.plan.model_of_class[k];
+  const auto tareOf = [&](const Tables& by) {
+    const std::optional<double> zero = zeroOf(number, by);
+    return zero ? *zero - zeroInTraining(session.number, model, by) : 0.0;
+  };
+  const std::array<double, kSessionAnswers> zero = {0, tareOf(plain), tareOf(zeroed)};
   const auto [lowest, highest] = codesWithout(session);
   const auto counts = [&, low = lowest, high = highest](std::uint16_t code) {
     return code > 0 && code < readings_.full_scale && code >= low && code <= high;
@@ -250,7 +271,7 @@ void SessionTables::addErrors(std::size_t number, const Tables& plain, const Tab
   readings_.sums[k][session.number].forEach([&](const regression::CodeSums& sums) { add(sums, 1); });
   const dataset::Recording& recording = problem_.recordings[session.recording];
   dataset::TaxelCounts own(recording, taxel_);
-  for (const std::size_t scan : session.rest) {
+  for (const std::size_t scan : session.rest.scans) {
     const FixedPressure pressure = regression::toFixed(recording.pressure[scan]);
     add({own[scan], 1, pressure, Int128{pressure} * pressure}, -1);
   }
@@ -275,33 +296,47 @@ namespace {
 
 // Tables of today are kept if tables with zeros are better by no more than this in root mean square.
 constexpr double kAsGood = 1.01;
+constexpr double kErrorRate = 0.05;  // of "better" and "worse", one-sided
 
 constexpr char kWhatToRecord[] =
     "record a surface in two sessions or more, each starting with 2 s at rest at the lowest pressure";
 
-// Sum over the sessions, each with the same weight [Pa^2].
-double squareOf(const std::vector<SessionScore::Session>& sessions, SessionAnswer answer) {
-  double sum = 0;
+// Over all readings of the sessions [Pa].
+double rmseOf(const std::vector<SessionScore::Session>& sessions, SessionAnswer answer) {
+  double sum = 0, readings = 0;
   for (const SessionScore::Session& session : sessions) {
     const double rmse = session.rmse[std::size_t(answer)];
-    sum += rmse * rmse;
+    sum += double(session.readings) * rmse * rmse;
+    readings += double(session.readings);
   }
-  return sum;
+  return std::sqrt(sum / readings);
 }
 
-double rmseOf(const std::vector<SessionScore::Session>& sessions, SessionAnswer answer) {
-  return std::sqrt(squareOf(sessions, answer) / static_cast<double>(sessions.size()));
-}
+// An answer against the static tables, on sessions that were left out.
+struct Comparison {
+  double ratio = 1;                                       // of RMSE over all readings
+  double p_better = 1, p_worse = 1;                       // one-sided
+  double most = std::numeric_limits<double>::infinity();  // upper 95 % bound of the gain, log of RMSE
+};
 
-bool nowhereWorse(const std::vector<SessionScore::Session>& sessions, SessionAnswer answer) {
-  return std::all_of(sessions.begin(), sessions.end(), [&](const SessionScore::Session& session) {
-    return session.rmse[std::size_t(answer)] <= kWorse * session.rmse[0];
-  });
-}
-
-bool wins(const std::vector<SessionScore::Session>& sessions, SessionAnswer answer) {
-  return nowhereWorse(sessions, answer) &&
-         rmseOf(sessions, answer) <= kWins * rmseOf(sessions, SessionAnswer::kPlain);
+// Student's paired t test over the sessions of the logarithms of RMSE. One session proves nothing.
+Comparison compare(const std::vector<SessionScore::Session>& sessions, SessionAnswer answer) {
+  Comparison result;
+  result.ratio = rmseOf(sessions, answer) / rmseOf(sessions, SessionAnswer::kPlain);
+  std::vector<double> before, after;
+  for (const SessionScore::Session& session : sessions) {
+    const auto logarithm = [&](SessionAnswer one) { return std::log(session.rmse[std::size_t(one)] + 1.0); };
+    before.push_back(logarithm(SessionAnswer::kPlain));
+    after.push_back(logarithm(answer));
+  }
+  if (sessions.size() < 2) return result;
+  const std::vector<double> gain = statistics::pairedDifferences(before, after, "tare");
+  if (statistics::isConstant(gain) && gain.front() != 0) return result;
+  const statistics::PairedT test = statistics::pairedT(before, after);
+  result.p_better = test.mean_difference > 0 ? test.test.p / 2 : 1 - test.test.p / 2;
+  result.p_worse = 1 - result.p_better;
+  result.most = test.high;
+  return result;
 }
 
 // The better of the two ways to use a tare; the simpler one if it is as good.
@@ -312,52 +347,79 @@ SessionAnswer better(const std::vector<SessionScore::Session>& sessions) {
 }
 
 std::string wayText(SessionAnswer answer) {
-  return answer == SessionAnswer::kTared
-             ? ", with the tables as without it, which are as good as tables trained with the zeros"
-             : ", with tables that are trained with the zero of each session";
-}
-
-std::string reasonForNone(const std::vector<SessionScore::Session>& sessions) {
-  const double allowed = kWins * rmseOf(sessions, SessionAnswer::kPlain);
-  const bool better_somehow = rmseOf(sessions, SessionAnswer::kTared) <= allowed ||
-                              rmseOf(sessions, SessionAnswer::kZeroed) <= allowed;
-  return better_somehow ? "since with it a session that was left out is worse by more than 1 %"
-                        : "since it is not better by 2 % on sessions that were left out";
-}
-
-SessionAnswer choose(ZeroChoice choice, SessionScore& score) {
-  const auto& sessions = score.sessions;
-  const SessionAnswer best = better(sessions);
-  if (choice == ZeroChoice::kSession) {
-    score.choice = std::string("Tare at the start of a session: expected, as asked for") +
-                   (wins(sessions, best) ? "" : ", although it does not win on sessions that were left out") +
-                   wayText(best) + ".";
-    return best;
-  }
-  for (const SessionAnswer answer : {best, SessionAnswer::kTared, SessionAnswer::kZeroed}) {
-    if (!wins(sessions, answer)) continue;
-    score.choice = "Tare at the start of a session: expected, since it wins on sessions that were left out" +
-                   (answer == best ? wayText(answer) : std::string()) + ".";
-    return answer;
-  }
-  score.choice = "Tare at the start of a session: not expected, " + reasonForNone(sessions) + ".";
-  return SessionAnswer::kPlain;
+  return answer == SessionAnswer::kTared ? ", with the tables as without it"
+                                         : ", with tables that are trained with the zero of each session";
 }
 
 std::string countText(std::size_t count, const std::string& what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
 
-// No session can be left out.
-void refuse(const Sessions& sessions, ZeroChoice choice, Calibration& calibration) {
+// "it takes 31 % off (p = 0.004) on 5 sessions that were left out".
+std::string effectText(const Comparison& found, std::size_t sessions) {
+  const double change = 1 - found.ratio;
+  const double p = change > 0 ? found.p_better : found.p_worse;
+  return "it " + std::string(change > 0 ? "takes " : "adds ") +
+         settings::fixedText(100 * std::abs(change), 1) + " % " + (change > 0 ? "off" : "to") +
+         " the error on " + countText(sessions, "session") +
+         (sessions == 1 ? " that was left out"
+                        : " that were left out (p = " + settings::roundedText(p, 2) + ")");
+}
+
+// A tare that changes the rest of a session to that of the training does no harm where sessions do not
+// differ, and sheets usually differ from session to session. So one is expected unless the sessions speak
+// against it.
+SessionAnswer choose(ZeroChoice choice, SessionScore& score) {
+  const auto& sessions = score.sessions;
+  const auto say = [&](const std::string& text) {
+    score.choice = "Tare at the start of a session: " + text + ".";
+  };
+  SessionAnswer best = better(sessions);
+  Comparison found = compare(sessions, best);
+  const auto wins = [&] { return found.ratio <= kWins && found.p_better < kErrorRate; };
+  if (best == SessionAnswer::kZeroed && !wins() && choice == ZeroChoice::kAuto) {
+    best = SessionAnswer::kTared;  // other tables need proof
+    found = compare(sessions, best);
+  }
+  const std::string effect = effectText(found, sessions.size());
+  if (choice == ZeroChoice::kSession) {
+    say("expected, as asked for; " + effect + wayText(best));
+  } else if (wins()) {
+    say("expected, since " + effect + wayText(best));
+  } else if (found.ratio > kWorse || (found.ratio > 1 && found.p_worse < kErrorRate)) {
+    say("not expected, since " + effect);
+    return SessionAnswer::kPlain;
+  } else if (found.most < -std::log(kWins)) {
+    say("not expected, since a gain of 2 % is ruled out: " + effect);
+    return SessionAnswer::kPlain;
+  } else {
+    say("expected, since sheets usually differ from session to session; " + effect + ", which may be chance" +
+        wayText(best));
+  }
+  return best;
+}
+
+// No session can be left out. Returns whether a tare is expected all the same.
+bool expectUnproven(const Sessions& sessions, const std::vector<dataset::Recording>& recordings,
+                    ZeroChoice choice, Calibration& calibration) {
   const auto resting =
       static_cast<std::size_t>(std::count_if(sessions.all.begin(), sessions.all.end(),
                                              [](const Session& session) { return !session.rest.empty(); }));
-  const std::string reason = "no surface has two sessions that start at rest (" +
-                             countText(sessions.all.size(), "session") + ", " + std::to_string(resting) +
-                             " of them with a rest at the start); " + kWhatToRecord;
-  if (choice == ZeroChoice::kSession) throw settings::InputError("zero session: " + reason);
-  calibration.scores.session.choice = "Tare at the start of a session: not expected, since " + reason + ".";
+  std::string& text = calibration.scores.session.choice;
+  if (resting == 0) {
+    const Session& first = sessions.all.front();
+    const std::string reason = "no session can be tared: " + first.name(recordings) + ": " +
+                               whyNoRest(recordings[first.recording], first.condition) + "; " + kWhatToRecord;
+    if (choice == ZeroChoice::kSession) throw settings::InputError("zero session: " + reason);
+    text = "Tare at the start of a session: not expected, since " + reason + ".";
+    return false;
+  }
+  text =
+      "Tare at the start of a session: expected, since sheets usually differ from session to session. What "
+      "it takes off is not known, because no surface has two sessions that start at rest (" +
+      countText(sessions.all.size(), "session") + ", " + std::to_string(resting) +
+      " of them with a rest at the start); " + kWhatToRecord + ".";
+  return true;
 }
 
 // Work on all taxels that have a model.
@@ -436,27 +498,45 @@ SessionZeros SessionTraining::zeros() const {
 
 }  // namespace
 
+void rememberRests(const Sessions& sessions, Calibration& calibration) {
+  const std::size_t classes = calibration.tables.classes.size();
+  std::vector<float>& at_rest = calibration.session_zero.at_rest;
+  at_rest.assign(calibration.tables.tables.size(), 0.0F);
+  bool any = false;
+  for (const Session& session : sessions.all) {
+    if (!session.rest.trained) continue;
+    any = true;
+    const std::size_t k = classes == 1 ? 0 : session.curvature_class;
+    for (std::size_t taxel = 0; taxel < calibration.no_model.size(); ++taxel) {
+      if (calibration.no_model[taxel] == 0)
+        at_rest[taxel * classes + k] = static_cast<float>(
+            zeroInTraining(*session.rest.trained, taxel, calibration.tables.table(taxel, k).pressure));
+    }
+  }
+  if (!any) at_rest.clear();
+}
+
 SessionZeros chooseSessionZero(const HistoryProblem& problem, const Sessions& sessions,
                                const CalibrationOptions& options, Calibration& calibration) {
   if (options.zero == ZeroChoice::kNone) return {};
-  if (!sessions.assessable()) {
-    refuse(sessions, options.zero, calibration);
-    return {};
-  }
-  const SessionTraining training(problem, sessions, options.threads, calibration);
+  SessionZero& zero = calibration.session_zero;
   SessionScore& score = calibration.scores.session;
-  score.sessions = training.score();
+  std::optional<SessionTraining> training;
+  if (sessions.assessable()) {
+    training.emplace(problem, sessions, options.threads, calibration);
+    score.sessions = training->score();
+  }
   if (score.sessions.empty()) {
-    refuse(sessions, options.zero, calibration);
+    const bool expected = expectUnproven(sessions, problem.recordings, options.zero, calibration);
+    zero.tare = expected ? SessionTare::kTablesAlone : SessionTare::kNone;
     return {};
   }
   const SessionAnswer answer = choose(options.zero, score);
   if (answer == SessionAnswer::kPlain) return {};
-  SessionZero& zero = calibration.session_zero;
   zero.tare = answer == SessionAnswer::kTared ? SessionTare::kTablesAlone : SessionTare::kTrained;
   zero.rmse_without = rmseOf(score.sessions, SessionAnswer::kPlain);
   zero.rmse = rmseOf(score.sessions, answer);
-  return answer == SessionAnswer::kZeroed ? training.zeros() : SessionZeros{};
+  return answer == SessionAnswer::kZeroed ? training->zeros() : SessionZeros{};
 }
 
 }  // namespace fsr::calibration

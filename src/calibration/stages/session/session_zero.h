@@ -54,6 +54,7 @@ class SessionTables {
   Tables train(std::optional<std::uint32_t> left_out, const Zeros& zeros) const;
   /// What the tables answer too much at the rest of a session.
   std::optional<double> zeroOf(std::size_t session, const Tables& tables) const;
+  double zeroInTraining(std::optional<std::uint32_t> left_out, std::size_t model, const Tables& tables) const;
   std::vector<std::vector<std::size_t>> trainedSessions(std::optional<std::uint32_t> left_out) const;
   /// `tables`: with `zeros`.
   void improve(std::optional<std::uint32_t> left_out, const Tables& tables, Zeros& zeros) const;
@@ -75,8 +76,15 @@ class SessionTables {
 /// turn is predicted by tables that were trained without it, with the zero of its own rest. `calibration`
 /// must have the taxels without a model; it receives the choice and its scores. Returns the zeros to train
 /// the tables with, empty where they are trained as without a tare. Throws InputError if a tare is asked for
-/// and no session can be left out.
+/// and no session starts at rest.
+///
+/// A tare is expected if it is better by 2 % over all readings with p < 0.05 (Student's paired t test over
+/// the sessions, one-sided); also where the sessions cannot tell. It is not where it is worse by 1 % or
+/// beyond chance, and where the 95 % interval of its gain ends below 2 %.
 SessionZeros chooseSessionZero(const HistoryProblem& problem, const Sessions& sessions,
                                const CalibrationOptions& options, Calibration& calibration);
+
+/// SessionZero::at_rest, for the tables of `calibration`. The rests must be referred to the training.
+void rememberRests(const Sessions& sessions, Calibration& calibration);
 
 }  // namespace fsr::calibration

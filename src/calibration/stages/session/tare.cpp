@@ -1,6 +1,7 @@
 #include "calibration/stages/session/tare.h"
 
 #include <yaml-cpp/yaml.h>
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -33,6 +34,16 @@ bool holds(const Tare& tare, const std::string& calibration, const matrix::Surfa
          std::abs(tare.curvature - meanCurvature(surface)) <= kTareCurvatureTolerance;
 }
 
+std::vector<float> restOfTraining(const SessionZero& zero, const Calibrator& calibrator) {
+  const std::vector<ClassChoice>& choices = calibrator.choices();
+  std::vector<float> rest(choices.size(), 0.0F);
+  const std::size_t classes = zero.at_rest.size() / rest.size();
+  if (classes == 0) return rest;  // not known
+  for (std::size_t taxel = 0; taxel < rest.size(); ++taxel)
+    rest[taxel] = zero.at_rest[taxel * classes + std::min(choices[taxel].curvature_class, classes - 1)];
+  return rest;
+}
+
 TareMeasurement::TareMeasurement(const matrix::Layout& layout, const TareOptions& options)
     : layout_(layout), options_(options), moments_(layout.size.taxels()) {}
 
@@ -50,7 +61,8 @@ bool TareMeasurement::add(const map::PressureMap& map, double time) noexcept {
   return scans_ >= options_.least_scans && time - start_ >= options_.window;
 }
 
-std::vector<float> TareMeasurement::offset(const std::vector<float>& standing) const {
+std::vector<float> TareMeasurement::offset(const std::vector<float>& standing,
+                                           const std::vector<float>& training) const {
   std::vector<float> result = standing.empty() ? std::vector<float>(moments_.size(), 0.0f) : standing;
   std::size_t read = 0;
   for (std::size_t taxel = 0; taxel < moments_.size(); ++taxel) {
@@ -70,7 +82,7 @@ std::vector<float> TareMeasurement::offset(const std::vector<float>& standing) c
                                  " as on a limb, but must be within " +
                                  settings::roundedKilopascals(options_.scatter, 3) + " (~tare_scatter)");
     }
-    result[taxel] = static_cast<float>(offset);
+    result[taxel] = static_cast<float>(offset) - (training.empty() ? 0.0F : training[taxel]);
   }
   if (read == 0)
     throw settings::InputError("the tare is refused: no taxel has a reading, but at least one must");

@@ -5,14 +5,16 @@
 #include <string>
 #include <vector>
 
+#include "fsr_pressure_map/calibration/calibration.h"
+#include "fsr_pressure_map/calibration/calibrator.h"
 #include "fsr_pressure_map/map/pressure_map.h"
 #include "fsr_pressure_map/matrix/curvature.h"
 #include "statistics/samples.h"
 
 namespace fsr::calibration {
 
-/// The pressure that a calibration reads on an unloaded sheet: an offset for each taxel, subtracted after the
-/// table. It is valid for one calibration, surface and mount.
+/// An offset for each taxel, subtracted after the table: by how much the pressure that a calibration reads on
+/// an unloaded sheet has changed since its training. It is valid for one calibration, surface and mount.
 struct Tare {
   std::string calibration;  ///< id of the calibration
   std::string surface;      ///< name of the surface; may be empty
@@ -32,6 +34,10 @@ bool holds(const Tare& tare, const std::string& calibration, const matrix::Surfa
 /// Mean principal curvature [1/m]; 0 if unknown.
 double meanCurvature(const matrix::Surface& surface);
 
+/// What the tables answer too much at the rests of their training, of the class that `calibrator` has chosen
+/// for each taxel [taxels] [Pa].
+std::vector<float> restOfTraining(const SessionZero& zero, const Calibrator& calibrator);
+
 /// Limits of a tare.
 struct TareOptions {
   double limit = 30e3;   ///< largest offset of a taxel: a larger one means that something presses on it [Pa]
@@ -50,10 +56,12 @@ class TareMeasurement {
   /// starts again.
   bool add(const map::PressureMap& map, double time) noexcept;
 
-  /// `standing` (the tare that the maps include, empty = none) plus the mean of each taxel [rows x columns]
-  /// [Pa]. Taxels without a reading keep their value of `standing`. Throws InputError that names the taxel if
-  /// the sum exceeds TareOptions::limit or the readings scatter too much, and if no taxel had a reading.
-  std::vector<float> offset(const std::vector<float>& standing) const;
+  /// `standing` (the tare that the maps include, empty = none) plus the mean of each taxel minus that of
+  /// `training` (as restOfTraining(); empty = 0) [rows x columns] [Pa]. Taxels without a reading keep their
+  /// value of `standing`. Throws InputError that names the taxel if the sum exceeds TareOptions::limit or the
+  /// readings scatter too much, and if no taxel had a reading.
+  std::vector<float> offset(const std::vector<float>& standing,
+                            const std::vector<float>& training = {}) const;
 
  private:
   std::string place(std::size_t taxel) const;

@@ -47,7 +47,7 @@ SessionsByMount sessionsByMount(const std::vector<dataset::Recording>& recording
   SessionsByMount by_mount;
   for (const Session& session : sessions.all) {
     const matrix::Surface& surface = recordings[session.recording].conditions[session.condition];
-    if (unloaded(recordings[session.recording], session.rest) == at_rest)
+    if (unloaded(recordings[session.recording], session.rest.scans) == at_rest)
       by_mount[{session.curvature_class, surface.mount}].push_back(&session);
   }
   return by_mount;
@@ -95,19 +95,19 @@ std::vector<MountedRest> mountedRests(const std::vector<dataset::Recording>& rec
   for (const auto& [key, members] : by_mount) {
     std::vector<RestReading> readings;
     for (const Session* session : members)
-      readings.push_back(readingAtRest(recordings[session->recording], session->rest));
+      readings.push_back(readingAtRest(recordings[session->recording], session->rest.scans));
     const Session& first = *members.front();
     MountedRest mount{first.name(recordings),
                       recordings[first.recording].conditions[first.condition],
                       key.first,
                       meanOf(readings),
                       recordings[first.recording].sensor.serial,
-                      temperatureAt(recordings[first.recording], first.rest),
+                      temperatureAt(recordings[first.recording], first.rest.scans),
                       {}};
     const std::vector<std::size_t> end = restAfterLoad(recordings[first.recording], first.condition);
     if (!end.empty())
       mount.left_behind = difference(readingAtRest(recordings[first.recording], end),
-                                     readingAtRest(recordings[first.recording], first.rest));
+                                     readingAtRest(recordings[first.recording], first.rest.scans));
     mounts.push_back(std::move(mount));
   }
   return mounts;
