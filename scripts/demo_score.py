@@ -7,7 +7,7 @@ import time
 import numpy
 
 UNDER_PRESSURE = 2e3  # gauge pressure at which the first cycle of a run begins and the last ends [Pa]
-HISTORY_SHORT = 4096  # flag of a reading for which the static answer stands
+HISTORY_SHORT = 4096  # flag of a reading whose deviation is more than twice the settled one
 WORSE = 1.01  # history may be worse than the static answer by this factor on no surface that was trained
 COLUMNS = {"flat_only": "flat-only", "baseline": "one for all", "per_curvature": "per curvature", "interpolated": "interpolated",
            "history": "history", "floor": "floor"}
@@ -100,7 +100,7 @@ def table(scores, trained, unseen):
     width = 16
     lines = ["", "Live error against the chamber's pressure: mean over taxels of the RMSE over cycles of a pace and dwell that took no part in training.",
              "interpolated is the static answer, history the same with the sheet's memory; floor: a static map on the same rig without loop and creep.",
-             "not settled: readings with the flag HISTORY_SHORT, for which history gave the static answer; they count.", "",
+             "not settled: readings with the flag HISTORY_SHORT; they count.", "",
              f"{'surface':26s}" + "".join(f"{title:>{width}s}" for title in COLUMNS.values()) + f"{'not settled':>13s}{'scans':>7s}",
              " " * 26 + f"{'% of range  kPa':>{width}s}" * len(COLUMNS)]
     for surface in trained + [unseen]:

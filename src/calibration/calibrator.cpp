@@ -398,10 +398,12 @@ void Calibrator::Impl::correctHistory(double time, map::PressureMap& out) noexce
     const auto frozen = static_cast<std::uint16_t>(out.flags[i] & kFrozen);
     if (frozen == map::taxel_flag::kSaturated) history_->atLeast(i, double(out.pressure[i]));
     const float before = out.deviation[i];
-    const bool corrected = history_->correct(i, frozen != 0, out.pressure[i], out.deviation[i]);
-    if (corrected && isBlended(i)) out.deviation[i] = std::hypot(out.deviation[i], beyondClass(i, before));
+    const HistoryAnswer answer = history_->correct(i, frozen != 0, out.pressure[i], out.deviation[i]);
+    if (answer != HistoryAnswer::kNoReading && isBlended(i))
+      out.deviation[i] = std::hypot(out.deviation[i], beyondClass(i, before));
     out.flags[i] =
-        static_cast<std::uint16_t>(out.flags[i] | flagWhere(!corrected, map::taxel_flag::kHistoryShort));
+        static_cast<std::uint16_t>(out.flags[i] | flagWhere(answer != HistoryAnswer::kSettled,
+                                                        map::taxel_flag::kHistoryShort));
   }
 }
 

@@ -222,7 +222,7 @@ class Checker {
   void addPart(std::size_t part, std::vector<HistoryScore::Part>& history) const {
     const PartSums& sums = parts_[part];
     if (sums.readings == 0) return;
-    const std::string name = part == kUnsettled  ? "not settled: static answer"
+    const std::string name = part == kUnsettled  ? "not settled"
                              : part < kUnsettled ? calibration::historyPartName(part)
                                                  : protocols_.names[part - kFirstProtocol];
     const auto n = double(sums.readings);
@@ -304,18 +304,16 @@ void judgeTaxels(const Calibration& calibration, const MapLimits& limits, MapErr
   if (!errors.stuck.empty()) errors.faults.push_back("taxels are stuck: " + places(errors.stuck, layout));
 }
 
-// Readings that are not settled are judged as static answers.
 std::string memoryNotShown(const Calibration& calibration, double not_settled) {
   std::string text = "the sheet's memory: " + settings::percentText(not_settled) +
-                     " of the readings were not settled and are static answers";
+                     " of the readings were not settled";
   const std::vector<HistoryScore::Part>& parts = calibration.scores.history.parts;
   if (!parts.empty()) {
     text += ", so that the RMSE that training found with it on left-out protocols (" +
             settings::fixedKilopascals(parts.front().rmse, 1) + " instead of " +
             settings::fixedKilopascals(parts.front().static_rmse, 1) + ") was not seen";
   }
-  return text + "; give a bag that begins at rest, or one with wide changes of load after " +
-         settings::fixedText(std::ceil(calibration.history.settlingTime()), 0) + " s";
+  return text + "; give a bag that begins at rest, or one with wide changes of load";
 }
 
 void noteWhatIsNotShown(const Calibration& calibration, const std::vector<Recording>& recordings,

@@ -30,7 +30,7 @@ struct CheckedReadings {
   double bias = std::numeric_limits<double>::quiet_NaN();           ///< mean error here, map - chamber [Pa]
   double within_one_deviation = std::numeric_limits<double>::quiet_NaN();  ///< of the readings (ratio)
   double beyond_training = std::numeric_limits<double>::quiet_NaN();       ///< of the readings (ratio)
-  /// Of the readings: the sheet's memory was not settled, so that they are static answers (ratio).
+  /// Of the readings: the sheet's memory was not settled, see the flag HISTORY_SHORT (ratio).
   double not_settled = std::numeric_limits<double>::quiet_NaN();
 };
 
@@ -48,8 +48,8 @@ struct MapErrors {
   calibration::TrainedInterval range;    ///< pressures of the training
   std::vector<std::size_t> suspicious;   ///< taxels with much larger errors than in training
   std::vector<std::size_t> dead, stuck;  ///< taxels, as TaxelWatch finds them
-  /// Errors of the static answer and with the model of the sheet's memory: all readings, those before the
-  /// model was settled, and of the others by direction, by time since the last reversal, by protocol. Empty
+  /// Errors of the static answer and with the model of the sheet's memory: all readings, those where the
+  /// model was not settled, and of the others by direction, by time since the last reversal, by protocol. Empty
   /// without a model.
   std::vector<calibration::HistoryScore::Part> history;
   /// Where the calibration expects a tare, each session was checked with the zero of the rest at its start

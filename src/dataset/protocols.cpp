@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "dataset/paces.h"
@@ -140,14 +141,20 @@ std::vector<std::vector<std::size_t>> groupsByJump(const std::vector<double>& fe
 Protocols protocolsOf(const std::vector<Recording>& recordings, const std::vector<Sections>& sections) {
   Protocols protocols;
   CourseScale scale;
+  double lowest = std::numeric_limits<double>::infinity();
   std::vector<std::vector<double>> rates;
   for (const Recording& recording : recordings) {
     rates.push_back(pressureRates(recording));
     for (const double rate : rates.back()) scale.fastest = std::max(scale.fastest, std::abs(rate));
-    for (const double pressure : recording.pressure) scale.highest = std::max(scale.highest, pressure);
+    for (const double pressure : recording.pressure) {
+      scale.highest = std::max(scale.highest, pressure);
+      lowest = std::min(lowest, pressure);
+    }
     protocols.of_scan.emplace_back(recording.scans(), Protocols::kOther);
+    protocols.part_of_scan.emplace_back(recording.scans(), std::uint8_t{0});
   }
   protocols.highest = scale.highest;
+  protocols.lowest = std::min(lowest, scale.highest);
   for (std::size_t r = 0; r < recordings.size(); ++r) {
     protocols.longest_hold =
         std::max(protocols.longest_hold, longestHold(recordings[r], rates[r], scale.fastest));
@@ -171,8 +178,15 @@ Protocols protocolsOf(const std::vector<Recording>& recordings, const std::vecto
     if (static_cast<double>(own) < kLeastShare * static_cast<double>(scans)) continue;
     const auto number = static_cast<std::uint32_t>(protocols.names.size());
     protocols.names.push_back(nameOf(members, courses, keys));
-    for (const std::size_t c : members) {
-      for (const std::size_t i : cycles[c].scans) protocols.of_scan[cycles[c].recording][i] = number;
+    const std::size_t parts = std::min(members.size(), Protocols::kMostCycles);
+    for (std::size_t m = 0; m < members.size(); ++m) {
+      const Cycle& cycle = cycles[members[m]];
+      for (const std::size_t i : cycle.scans) {
+        const bool unloads = sections[cycle.recording].direction[i] == statistics::LoadDirection::kUnloading;
+        protocols.of_scan[cycle.recording][i] = number;
+        protocols.part_of_scan[cycle.recording][i] =
+            static_cast<std::uint8_t>(2 * (m * parts / members.size()) + (unloads ? 1 : 0));
+      }
     }
   }
   return protocols;

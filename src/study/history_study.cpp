@@ -61,10 +61,10 @@ HistoryStudy::HistoryStudy(const StudyData& data, const Split& split, const std:
       split_(split),
       models_(models),
       plan_(plan),
-      grid_(calibration::historyGrid(data.protocols.highest, data.protocols.longest_hold)) {
+      grid_(calibration::historyGrid(data.protocols.lowest, data.protocols.highest,
+                                     data.protocols.longest_hold)) {
   for (std::size_t r = 0; r < data.recordings->size(); ++r) {
-    streams_.emplace_back((*data.recordings)[r], data.class_of[r], data.divided[r], data.protocols.of_scan[r],
-                          grid_);
+    streams_.emplace_back((*data.recordings)[r], r, data.class_of[r], data.divided[r], data.protocols, grid_);
   }
   std::vector<std::vector<LeftOutSums>> each(data.taxels.size());
   matrix::forEachTaxel(each.size(), plan.threads, [&](std::size_t t) { each[t] = sumsOf(data.taxels[t]); });
@@ -73,11 +73,9 @@ HistoryStudy::HistoryStudy(const StudyData& data, const Split& split, const std:
   std::vector<LeftOutSums> all;
   for (std::size_t k = 0; k < split.folds.size(); ++k) {
     names.push_back(split.folds[k].name);
-    all.push_back({HistorySums(grid_.features()), HistorySums(grid_.features())});
-    for (const std::vector<LeftOutSums>& own : each) {
-      all.back().trained.merge(own[k].trained);
-      all.back().left_out.merge(own[k].left_out);
-    }
+    all.emplace_back(grid_.features());
+    for (const std::vector<LeftOutSums>& own : each) all.back().merge(own[k]);
+    all.back().finish();
   }
   verdict_ = calibration::chooseHistory({}, grid_, names, all);
 }
@@ -91,6 +89,7 @@ std::vector<StaticAnswer> HistoryStudy::staticAnswers(std::size_t taxel, std::si
     if (setTrainedCodes(training.sums[c], answers[c])) trained.push_back(c);
   auto tables = tablesFor(models_[fold], taxel, training, trained);
   for (std::size_t i = 0; i < trained.size(); ++i) answers[trained[i]].pressure = std::move(tables[i]);
+  calibration::setTrainedPressures(streams_, protocolOf(split_.folds[fold]), answers);
   return answers;
 }
 
@@ -99,11 +98,10 @@ std::vector<LeftOutSums> HistoryStudy::sumsOf(std::size_t taxel) const {
   std::vector<LeftOutSums> of_fold;
   for (std::size_t k = 0; k < split_.folds.size(); ++k) {
     const std::vector<StaticAnswer> answers = staticAnswers(taxel, k, readings);
-    LeftOutSums sums{HistorySums(grid_.features()), HistorySums(grid_.features())};
+    LeftOutSums sums(grid_.features());
     for (const HistoryStream& stream : streams_)
       calibration::addHistoryRows(stream, grid_, taxel, answers, protocolOf(split_.folds[k]), sums);
-    sums.trained.finish();
-    sums.left_out.finish();
+    sums.finish();
     of_fold.push_back(std::move(sums));
   }
   return of_fold;
@@ -116,11 +114,13 @@ HeldOutAnswer HistoryStudy::answer(std::size_t taxel, std::size_t fold, const Ta
   const auto corrected = std::make_shared<std::vector<CorrectedPressures>>(streams_.size());
   for (std::size_t r = 0; r < streams_.size(); ++r) {
     CorrectedPressures& own = (*corrected)[r];
-    streams_[r].run(taxel, tables, [&](const HistoryStream::Scan& scan, double x, const double* state) {
-      if (scan.protocol != protocolOf(split_.folds[fold])) return;
-      calibration::historyFeatures(grid_, x, state, features.data());
-      own.add(scan.number, x + coefficients.dot(features));
-    });
+    streams_[r].run(
+        taxel, tables,
+        [&](const HistoryStream::Scan& scan, double x, const double* state, const double* /*open*/) {
+          if (scan.protocol != protocolOf(split_.folds[fold])) return;
+          calibration::historyFeatures(grid_, x, state, features.data());
+          own.add(scan.number, x + coefficients.dot(features));
+        });
     own.addUntil(streams_[r].recording().scans());
   }
   return [tables, corrected](std::size_t c, const ScanPlace& scan, std::uint16_t code) {

@@ -57,7 +57,7 @@ class HistoryStudy {
   /// there is nothing to evaluate.
   const calibration::HistoryVerdict& verdict() const { return verdict_; }
 
-  /// Readings before the model is settled, and codes that training did not have, have the static answer.
+  /// Codes and pressures that training did not have have the static answer.
   Evaluation evaluate(const StudyMethod& method, const std::function<void()>& done) const;
 
  private:

@@ -54,13 +54,12 @@ std::string name(TaxelLook look) {
 
 std::string settlingWord(double share) {
   if (share <= 0) return "";
-  return share < 1 ? "settling: " + partText(share) + " of taxels" : "settling: static answer";
+  return share < 1 ? "settling: " + partText(share) + " of taxels" : "settling";
 }
 
 std::string settlingText(double share) {
   if (share <= 0) return "";
-  return "history not settled" + (share < 1 ? " on " + partText(share) + " of taxels" : "") +
-         ": static answer";
+  return "history not settled" + (share < 1 ? " on " + partText(share) + " of taxels" : "");
 }
 
 const std::vector<Stroke>& mark(TaxelLook look) {

@@ -30,7 +30,7 @@ std::string name(TaxelLook look);
 
 /// What pictures and panels say while part of the taxels (0 to 1, see map::unsettledShare()) is not settled.
 /// These taxels have no mark, because after each start it would be on all of them. The word fits a legend,
-/// e.g. "settling: static answer"; the text is e.g. "history not settled on 12 % of taxels: static answer".
+/// e.g. "settling: 12 % of taxels"; the text is e.g. "history not settled on 12 % of taxels".
 /// Both are empty at 0.
 std::string settlingWord(double share);
 std::string settlingText(double share);

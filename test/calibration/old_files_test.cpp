@@ -63,6 +63,7 @@ std::string bytesOf(const std::string& path) {
 TEST(OldCalibrationFiles, SchemaThreeIsWrittenAgainByteForByte) {
   const Calibration calibration = loadCalibration(kFolder + "schema_3.h5", CalibrationParts::kAll);
   EXPECT_TRUE(calibration.history.present());
+  EXPECT_TRUE(calibration.history.memory_spread.empty());
   EXPECT_TRUE(calibration.session_zero.expected());
   EXPECT_TRUE(calibration.temperature.present());
   EXPECT_TRUE(calibration.budget.intervals.scale.present());

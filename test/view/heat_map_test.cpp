@@ -96,9 +96,9 @@ TEST(HeatMap, HasNoMarkForAHistoryThatIsNotSettled) {
 
 TEST(Legend, SaysHowManyTaxelsAreNotSettledInOneLine) {
   EXPECT_EQ(settlingWord(0) + settlingText(0), "");
-  EXPECT_EQ(settlingWord(1), "settling: static answer");
-  EXPECT_EQ(settlingText(1), "history not settled: static answer");
-  EXPECT_EQ(settlingText(0.12), "history not settled on 12 % of taxels: static answer");
+  EXPECT_EQ(settlingWord(1), "settling");
+  EXPECT_EQ(settlingText(1), "history not settled");
+  EXPECT_EQ(settlingText(0.12), "history not settled on 12 % of taxels");
   for (const double share : {1.0 / 4096, 0.12, 1 - 1.0 / 4096}) {
     EXPECT_LE(Image::textWidth(settlingWord(share)), 186) << settlingWord(share);  // width of a line [pixels]
   }

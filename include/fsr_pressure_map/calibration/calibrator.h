@@ -59,9 +59,9 @@ struct ClassChoice {
 ///   no
 ///                           sheet at all
 ///   kTared                  an offset was subtracted
-///   kHistoryShort           the calibration has a model of the sheet's memory, but the readings do not yet
-///                           go back far enough (start, gap, time that ran back, another curvature), or the
-///                           reading is saturated: static answer and deviation
+///   kHistoryShort           the calibration has a model of the sheet's memory, and what is not known of the
+///                           load before (start, gap, time that ran back, another curvature) more than doubles
+///                           the deviation; or the reading is saturated: static answer and deviation
 ///
 /// State of the map is the first of these that applies: kSizeMismatch (rows, columns or full scale differ
 /// from the calibration's), kWrongSensor, kCurvatureUnknown, kCurvatureStale, kOk. A baseline calibration

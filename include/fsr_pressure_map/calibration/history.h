@@ -42,6 +42,10 @@ struct HistoryModel {
   std::vector<double> play_weight;
   std::vector<double> time_constant;  ///< of the memories, above 0 [s]
   std::vector<double> memory_weight;
+  /// Of each memory: root mean square of its distance from x in training [Pa]. It is the deviation of a memory
+  /// of which nothing is known. Empty, as in files of earlier versions: that of inputs evenly between the
+  /// knots.
+  std::vector<double> memory_spread;
   /// Of a reading of a protocol that training left out, by pressure, constant beyond the knots: where the
   /// sheet is being loaded, and where it is being unloaded. It is being unloaded where the first operator, a
   /// play if there is one, lies above x.
@@ -52,14 +56,6 @@ struct HistoryModel {
   bool present() const { return family != HistoryFamily::kNone; }
   /// The smallest of the stated deviations [Pa]; 0 if there is none.
   double smallestDeviation() const;
-  /// Time after which the readings before the first one move the memories by less than the smallest
-  /// deviation, whatever they were between 0 and the last knot: at most three of the longest time constant
-  /// [s]; 0 without memories.
-  double settlingTime() const;
-  /// The largest error of the plays from what is not known of the time before the first reading, after
-  /// readings between `lowest` and `highest` [Pa]. A play of radius r then lies within a span of
-  /// min(lowest, 2 r - (highest - lowest)): see HistoryOperators::startConditioned().
-  double playsOwe(double lowest, double highest) const noexcept;
 };
 
 }  // namespace fsr::calibration

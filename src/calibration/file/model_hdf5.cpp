@@ -113,6 +113,9 @@ void historyMembers(hdf5::Members& file, HistoryModel& model) {
   column("play_weight", model.play_weight, "", "w", -kLargestWeight, kLargestWeight);
   column("time_constant", model.time_constant, "s", "of the memories", kShortest, kLongest);
   column("memory_weight", model.memory_weight, "", "v", -kLargestWeight, kLargestWeight);
+  if (file.reads() ? file.has("memory_spread") : !model.memory_spread.empty())  // not in earlier versions
+    column("memory_spread", model.memory_spread, "Pa", "of the memories: deviation where nothing is known", 0,
+           kLargestPressure);
   column("deviation_knot", model.deviation_knot, "Pa", "evenly spaced pressures", -kLargestPressure,
          kLargestPressure);
   column("loading_deviation", model.loading_deviation, "Pa", "of a reading of a protocol that was left out",
@@ -125,6 +128,8 @@ void historyMembers(hdf5::Members& file, HistoryModel& model) {
                "must have one for each radius");
   file.require(model.time_constant.size() == model.memory_weight.size(), "memory_weight",
                "must have one for each time_constant");
+  file.require(model.memory_spread.empty() || model.memory_spread.size() == model.time_constant.size(),
+               "memory_spread", "must have one for each time_constant");
 }
 
 void sessionMembers(hdf5::Members& file, SessionZero& zero, std::size_t tables) {

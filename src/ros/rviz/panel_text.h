@@ -36,7 +36,7 @@ QString peakText(const fsr_pressure_map::PressureStatistics& whole,
                  const fsr_pressure_map::PressureMapConstPtr& map, fsr::view::PressureUnit unit);
 
 /// What the line "Calibration" says about the map: ", tared" if a tare is subtracted from any taxel, and
-/// ", history not settled: static answer" while that is so. Empty without a map.
+/// ", history not settled" while that is so. Empty without a map.
 QString mapRemark(const fsr_pressure_map::PressureMapConstPtr& map);
 
 /// What the line "Calibration" says about its origin: ", corrected on 2026-11-23 from 3f2a01c4d5e6". Empty if

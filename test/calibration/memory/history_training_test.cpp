@@ -22,7 +22,6 @@
 namespace fsr::calibration {
 namespace {
 
-using HistoryFamily;
 using test_support::MemoryRig;
 
 MemoryRig rigWith(double loop, double creep) {
@@ -151,6 +150,8 @@ TEST_F(HistoryFile, KeepsTheModelAndItsScores) {
   EXPECT_EQ(loaded.history.family, HistoryFamily::kBoth);
   EXPECT_EQ(loaded.history.radius, calibration.history.radius);
   EXPECT_EQ(loaded.history.memory_weight, calibration.history.memory_weight);
+  EXPECT_FALSE(loaded.history.memory_spread.empty());
+  EXPECT_EQ(loaded.history.memory_spread, calibration.history.memory_spread);
   EXPECT_EQ(loaded.history.unloading_deviation, calibration.history.unloading_deviation);
   EXPECT_EQ(loaded.scores.history.choice, calibration.scores.history.choice);
   ASSERT_EQ(loaded.scores.history.parts.size(), calibration.scores.history.parts.size());
@@ -195,7 +196,7 @@ TEST_F(HistoryFile, IsRefusedWhereItsModelCannotBeUsed) {
 // The play and the memory of these samples follow the same slow course, each with noise of its own. The
 // target is `noise` times the difference of the two, and `loop` times the play's.
 LeftOutSums sumsOf(const HistoryGrid& grid, double noise, double loop) {
-  LeftOutSums sums{HistorySums(grid.features()), HistorySums(grid.features())};
+  LeftOutSums sums(grid.features());
   std::mt19937 random(3);
   std::normal_distribution<double> normal(0, 1e3);
   std::vector<double> features(grid.features());
@@ -208,15 +209,51 @@ LeftOutSums sumsOf(const HistoryGrid& grid, double noise, double loop) {
     memory += course + normal(random);
     historyFeatures(grid, x, state.data(), features.data());
     const double target = noise * (play - memory) + loop * (play - x) + 0.5 * normal(random);
-    (i % 2 == 0 ? sums.trained : sums.left_out).add(features.data(), target);
+    (i % 2 == 0 ? sums.trained : sums.part(std::size_t(i / 2 % 12))).add(features.data(), target);
   }
-  sums.trained.finish();
-  sums.left_out.finish();
+  sums.finish();
   return sums;
 }
 
+// A protocol of six cycles. The weight of the play is 0.2 where it was trained and in the first `alike`
+// parts, halves of the cycles, and 0 in the others.
+LeftOutSums partsOf(const HistoryGrid& grid, int alike) {
+  LeftOutSums sums(grid.features());
+  std::mt19937 random(7);
+  std::normal_distribution<double> normal(0, 1e3);
+  std::vector<double> features(grid.features());
+  for (int i = 0; i < 20000; ++i) {
+    const double x = 600e3 * (i % 100) / 100;
+    std::vector<double> state(grid.radii.size() + grid.time_constants.size(), x);
+    state[1] += 20 * normal(random);
+    historyFeatures(grid, x, state.data(), features.data());
+    const int part = i / 2 % 12;
+    const double loop = i % 2 == 0 || part < alike ? 0.2 : 0;
+    const double target = loop * (state[1] - x) + 0.5 * normal(random);
+    (i % 2 == 0 ? sums.trained : sums.part(std::size_t(part))).add(features.data(), target);
+  }
+  sums.finish();
+  return sums;
+}
+
+TEST(HistoryChoiceRule, CountsWhatIsBeyondChance) {
+  const HistoryGrid grid = historyGrid(0, 600e3, 30);
+  const auto chosen = [&](int first, int second, int third) {
+    return chooseHistory({}, grid, {"a", "b", "c"},
+                         {partsOf(grid, first), partsOf(grid, second), partsOf(grid, third)});
+  };
+  EXPECT_EQ(chosen(12, 12, 12).family, HistoryFamily::kPlays);
+  EXPECT_EQ(chosen(7, 7, 7).family, HistoryFamily::kNone) << "better by more than 2 %, by chance";
+  const HistoryVerdict some = chosen(12, 12, 5);
+  const auto& rmse = some.score.protocols[2].rmse;
+  EXPECT_GT(rmse[std::size_t(HistoryFamily::kPlays)], 1.01 * rmse[0]);
+  EXPECT_EQ(some.family, HistoryFamily::kPlays) << "worse on a protocol, but not beyond chance";
+  EXPECT_EQ(chosen(12, 12, 0).family, HistoryFamily::kNone) << "worse beyond chance on a protocol";
+  EXPECT_NE(some.score.choice.find("(95 %: "), std::string::npos) << some.score.choice;
+}
+
 TEST(HistoryChoiceRule, PlaysAndMemoriesOfUseOnlyTogetherAreNone) {
-  const HistoryGrid grid = historyGrid(600e3, 30);
+  const HistoryGrid grid = historyGrid(0, 600e3, 30);
   const std::vector<std::string> names = {"one", "other"};
   const auto chosen = [&](double noise, double loop) {
     return chooseHistory({}, grid, names, {sumsOf(grid, noise, loop), sumsOf(grid, noise, loop)});

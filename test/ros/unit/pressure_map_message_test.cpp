@@ -43,9 +43,9 @@ TEST(PressureMapMessage, RemarksOnStateAndHistory) {
   fsr::map::PressureMap map = someMap();
   EXPECT_EQ(remarkText(map), "curvature stale");
   map.flags.assign(6, fsr::map::taxel_flag::kHistoryShort);
-  EXPECT_EQ(remarkText(map), "curvature stale; history not settled: static answer");
+  EXPECT_EQ(remarkText(map), "curvature stale; history not settled");
   map.state = fsr::map::MapState::kOk;
-  EXPECT_EQ(remarkText(map), "history not settled: static answer");
+  EXPECT_EQ(remarkText(map), "history not settled");
   map.flags.assign(6, 0);
   EXPECT_EQ(remarkText(map), "");
 }

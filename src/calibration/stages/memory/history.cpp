@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "fsr_pressure_map/settings/input_error.h"
 
@@ -11,8 +10,7 @@ namespace fsr::calibration {
 namespace {
 
 constexpr std::array<const char*, 4> kNames = {"none", "plays", "memories", "both"};
-constexpr double kSettled = 3;      // time constants; e^-3 = 5 % of a step is left
-constexpr double kTimeStep = 1e-3;  // of a settling time [s]
+constexpr double kSettled = 3;  // time constants; e^-3 = 5 % of a step is left
 
 }  // namespace
 
@@ -38,32 +36,6 @@ double HistoryModel::smallestDeviation() const {
     for (const double value : *deviation) smallest = std::min(smallest, value);
   }
   return smallest;
-}
-
-double HistoryModel::settlingTime() const {
-  const double longest = calibration::settlingTime(time_constant), allowed = smallestDeviation();
-  const auto owed = [&](double time) {
-    double sum = 0;  // [Pa]
-    for (std::size_t k = 0; k < time_constant.size(); ++k)
-      sum += std::abs(memory_weight[k]) * (knot.back() - knot.front()) * std::exp(-time / time_constant[k]);
-    return sum;
-  };
-  double above = 0, below = longest;
-  if (longest == 0 || owed(above) <= allowed) return 0;
-  if (owed(below) > allowed) return longest;
-  while (below - above > kTimeStep) {
-    const double middle = (above + below) / 2;
-    (owed(middle) > allowed ? above : below) = middle;
-  }
-  return below;
-}
-
-double HistoryModel::playsOwe(double lowest, double highest) const noexcept {
-  const double never_below = std::max(lowest, 0.0), covered = highest - lowest;
-  double owed = 0;  // [Pa]
-  for (std::size_t j = 0; j < radius.size(); ++j)
-    owed += std::abs(play_weight[j]) * std::max(std::min(never_below, 2 * radius[j] - covered), 0.0) / 2;
-  return owed;
 }
 
 }  // namespace fsr::calibration

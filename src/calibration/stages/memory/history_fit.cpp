@@ -75,10 +75,12 @@ Eigen::VectorXd fitColumns(const Columns& columns, const HistorySums& sums) {
 
 }  // namespace
 
-HistoryGrid historyGrid(double highest, double longest_hold) {
+HistoryGrid historyGrid(double lowest, double highest, double longest_hold) {
   HistoryGrid grid;
-  for (std::size_t k = 0; k < kKnots; ++k) grid.knots.push_back(highest * double(k) / double(kKnots - 1));
-  for (const double share : kRadii) grid.radii.push_back(share * highest);
+  const double range = std::max(highest - lowest, 1.0);
+  for (std::size_t k = 0; k < kKnots; ++k)
+    grid.knots.push_back(lowest + range * double(k) / double(kKnots - 1));
+  for (const double share : kRadii) grid.radii.push_back(share * range);
   const double longest = std::max(kShortest, kShareOfHold * longest_hold);
   // At least a factor of two apart.
   const std::size_t count =
@@ -91,7 +93,7 @@ HistoryGrid historyGrid(double highest, double longest_hold) {
 }
 
 HistoryOperators operatorsOf(const HistoryGrid& grid) {
-  return HistoryOperators(grid.radii, grid.time_constants);
+  return HistoryOperators(grid.radii, grid.time_constants, grid.knots.back());
 }
 
 void historyFeatures(const HistoryGrid& grid, double x, const double* state, double* features) {
@@ -155,8 +157,16 @@ Eigen::VectorXd fitHistory(HistoryFamily family, const HistoryGrid& grid, const 
   return best;
 }
 
-HistoryModel historyModel(HistoryFamily family, const HistoryGrid& grid,
-                          const Eigen::VectorXd& coefficients) {
+std::vector<double> memorySpreads(const HistoryGrid& grid, const HistorySums& sums) {
+  const Index first = Index(grid.knots.size() + grid.radii.size());
+  std::vector<double> spreads;
+  for (Index k = 0; k < Index(grid.time_constants.size()); ++k)
+    spreads.push_back(std::sqrt(sums.gram()(first + k, first + k) / std::max(sums.samples(), 1.0)));
+  return spreads;
+}
+
+HistoryModel historyModel(HistoryFamily family, const HistoryGrid& grid, const Eigen::VectorXd& coefficients,
+                          const std::vector<double>& spreads) {
   HistoryModel model;
   model.family = family;
   if (!model.present()) return model;
@@ -170,10 +180,11 @@ HistoryModel historyModel(HistoryFamily family, const HistoryGrid& grid,
     model.radius.push_back(radius);
     model.play_weight.push_back(weight);
   }
-  for (const double time_constant : grid.time_constants) {
+  for (std::size_t k = 0; k < grid.time_constants.size(); ++k) {
     const double weight = coefficients[at++];
     if (std::abs(weight) < kMatters) continue;
-    model.time_constant.push_back(time_constant);
+    model.time_constant.push_back(grid.time_constants[k]);
+    model.memory_spread.push_back(spreads[k]);
     model.memory_weight.push_back(weight);
   }
   return model;

@@ -19,9 +19,9 @@ struct HistoryGrid {
   std::size_t features() const { return knots.size() + radii.size() + time_constants.size(); }
 };
 
-/// The grid for pressures from 0 to `highest` [Pa] whose longest hold or rest is `longest_hold` [s]. A memory
-/// that is longer than a third of it cannot be told from drift or a standing load.
-HistoryGrid historyGrid(double highest, double longest_hold);
+/// The grid for pressures from `lowest` to `highest` [Pa] whose longest hold or rest is `longest_hold` [s]. A
+/// memory that is longer than a third of it cannot be told from drift or a standing load.
+HistoryGrid historyGrid(double lowest, double highest, double longest_hold);
 
 /// The features of one sample: shares of the two knots around x, and operator - x for each operator.
 /// `features` has grid.features() entries; `state` is that of operatorsOf(grid).
@@ -65,8 +65,12 @@ Eigen::VectorXd fitCorrection(const HistoryGrid& grid, const HistorySums& sums);
 /// which the fit is better.
 Eigen::VectorXd fitHistory(HistoryFamily family, const HistoryGrid& grid, const HistorySums& sums);
 
-/// The model of these coefficients. Operators that move the answer by less than 0.01 % of the range are left
-/// out. Its deviation is empty.
-HistoryModel historyModel(HistoryFamily family, const HistoryGrid& grid, const Eigen::VectorXd& coefficients);
+/// Root mean square of memory - x, [memories of the grid] [Pa].
+std::vector<double> memorySpreads(const HistoryGrid& grid, const HistorySums& sums);
+
+/// The model of these coefficients and spreads. Operators that move the answer by less than 0.01 % of the
+/// range are left out. Its deviation is empty.
+HistoryModel historyModel(HistoryFamily family, const HistoryGrid& grid, const Eigen::VectorXd& coefficients,
+                          const std::vector<double>& spreads);
 
 }  // namespace fsr::calibration

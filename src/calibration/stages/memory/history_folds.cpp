@@ -15,7 +15,8 @@ constexpr double kSmallest = 1e-6;       // of the absolute errors that are told
 
 }  // namespace
 
-HistoryErrors::HistoryErrors(double highest) : highest_(highest), parts_(kHistoryParts) {}
+HistoryErrors::HistoryErrors(double highest, double known)
+    : highest_(highest), known_(known), parts_(kHistoryParts + 1) {}
 
 std::size_t HistoryErrors::bin(const Reading& reading) const {
   const double at = reading.answer / highest_ * static_cast<double>(kBins);
@@ -31,7 +32,8 @@ double HistoryErrors::level(std::size_t number) const {
 
 void HistoryErrors::add(const Reading& reading) {
   const double before = reading.static_answer - reading.truth, error = reading.answer - reading.truth;
-  const double share = std::max(std::abs(error) / (highest_ * kSmallest), 1.0);
+  const double beyond = std::sqrt(std::max(error * error - reading.open * reading.open, 0.0));
+  const double share = std::max(beyond / (highest_ * kSmallest), 1.0);
   const double at = std::log(share) / std::log(1 / kSmallest) * static_cast<double>(kLevels - 1);
   const auto place = static_cast<std::size_t>(std::min(at, static_cast<double>(kLevels - 1)));
   const std::size_t own = bin(reading);
@@ -44,6 +46,7 @@ void HistoryErrors::add(const Reading& reading) {
     sum.square += error * error;
     ++sum.errors[own][place];
   }
+  if (reading.open <= known_) ++parts_.back().errors[own][place];
 }
 
 void HistoryErrors::merge(const HistoryErrors& other) {
@@ -59,7 +62,7 @@ void HistoryErrors::merge(const HistoryErrors& other) {
 
 // NaN for a bin without readings.
 double HistoryErrors::quantile(std::size_t bin) const {
-  const auto& errors = parts_[0].errors[bin];
+  const auto& errors = parts_.back().errors[bin];
   std::uint64_t all = 0, below = 0;
   for (const std::uint64_t count : errors) all += count;
   if (all == 0) return std::numeric_limits<double>::quiet_NaN();
@@ -94,7 +97,7 @@ void HistoryErrors::setDeviation(HistoryModel& model) const {
 
 std::vector<HistoryScore::Part> HistoryErrors::parts() const {
   std::vector<HistoryScore::Part> parts;
-  for (std::size_t p = 0; p < parts_.size(); ++p) {
+  for (std::size_t p = 0; p < kHistoryParts; ++p) {
     const Sum& sum = parts_[p];
     if (sum.readings == 0) continue;
     const double readings = static_cast<double>(sum.readings);
@@ -145,11 +148,11 @@ HistoryFolds::HistoryFolds(const HistoryProblem& problem, const dataset::Protoco
       threads_(threads),
       calibration_(calibration),
       judged_(std::move(judged)),
-      grid_(historyGrid(protocols.highest, protocols.longest_hold)) {
+      grid_(historyGrid(protocols.lowest, protocols.highest, protocols.longest_hold)) {
   std::vector<dataset::Sections> by_protocol = problem.sections;
   for (std::size_t r = 0; r < problem.recordings.size(); ++r) {
-    streams_.emplace_back(problem.recordings[r], problem.classes.class_of[r], problem.sections[r],
-                          protocols.of_scan[r], grid_, sessionsOf(problem, r));
+    streams_.emplace_back(problem.recordings[r], r, problem.classes.class_of[r], problem.sections[r],
+                          protocols, grid_, sessionsOf(problem, r));
     for (std::size_t i = 0; i < problem.recordings[r].scans(); ++i) {
       std::uint32_t& section = by_protocol[r].section[i];
       if (section == dataset::kNoSection) continue;
@@ -157,6 +160,8 @@ HistoryFolds::HistoryFolds(const HistoryProblem& problem, const dataset::Protoco
       section = own == dataset::Protocols::kOther ? static_cast<std::uint32_t>(count()) : own;
     }
   }
+  limits_.assign(count(), Answers(problem.classes.classes.size()));
+  for (std::size_t g = 0; g < count(); ++g) setTrainedPressures(streams_, g, limits_[g]);
   scans_ = gatherScans(problem.recordings, problem.classes, by_protocol, problem.zeros);
 }
 
@@ -172,7 +177,7 @@ std::vector<HistoryFolds::Answers> HistoryFolds::answersWithoutEach(std::size_t 
       sectionedReadings(scans_, count() + 1, calibration_.tables.full_scale, taxel, problem_.regressor);
   const auto models = compensation::crossValidateScheme(problem_.plan, taxel, readings, problem_.regressor,
                                                         regression::HeldOutDeviation::kNo);
-  std::vector<Answers> answers(count(), Answers(readings.sums.size()));
+  std::vector<Answers> answers = limits_;
   for (std::size_t g = 0; g < count(); ++g) {
     for (std::size_t k = 0; k < readings.sums.size(); ++k) {
       answers[g][k].pressure = models[problem_.plan.model_of_class[k]].held_out[g].pressure;
@@ -194,41 +199,41 @@ HistoryFolds::Answers HistoryFolds::answersOfTables(std::size_t taxel) const {
 
 // A row is the mean of the scans within half a second.
 void HistoryFolds::addRows(std::size_t taxel, const Answers& answers, std::size_t left_out,
-                           Sums& sums) const {
+                           LeftOutSums& sums) const {
   for (std::size_t r = 0; r < streams_.size(); ++r)
     addHistoryRows(streams_[r], grid_, taxel, answers, left_out, sums,
                    judged_.empty() ? nullptr : &judged_[r]);
-  sums.trained.finish();
-  sums.left_out.finish();
+  sums.finish();
 }
 
-// Taxels are added in their order, so that the result does not depend on the number of threads.
-std::vector<HistoryFolds::Sums> HistoryFolds::leaveOneOut() const {
-  std::vector<std::vector<Sums>> each(calibration_.no_model.size());
-  forEachModelledTaxel([&](std::size_t taxel) {
-    const std::vector<Answers> answers = answersWithoutEach(taxel);
-    for (std::size_t g = 0; g < count(); ++g) {
-      each[taxel].push_back({HistorySums(grid_.features()), HistorySums(grid_.features())});
-      addRows(taxel, answers[g], g, each[taxel].back());
-    }
-  });
-  std::vector<Sums> all(count(), {HistorySums(grid_.features()), HistorySums(grid_.features())});
-  for (const std::vector<Sums>& own : each) {
-    for (std::size_t g = 0; g < own.size(); ++g) {
-      all[g].trained.merge(own[g].trained);
-      all[g].left_out.merge(own[g].left_out);
+// Taxels are added in their order, so that the result does not depend on the number of threads. A few of them
+// are in memory at one time.
+std::vector<LeftOutSums> HistoryFolds::leaveOneOut() const {
+  constexpr std::size_t kTogether = 16;
+  std::vector<LeftOutSums> all(count(), LeftOutSums(grid_.features()));
+  const std::size_t taxels = calibration_.no_model.size();
+  for (std::size_t first = 0; first < taxels; first += kTogether) {
+    std::vector<std::vector<LeftOutSums>> each(std::min(kTogether, taxels - first));
+    matrix::forEachTaxel(each.size(), threads_, [&](std::size_t t) {
+      if (calibration_.no_model[first + t] != 0) return;
+      const std::vector<Answers> answers = answersWithoutEach(first + t);
+      each[t].assign(count(), LeftOutSums(grid_.features()));
+      for (std::size_t g = 0; g < count(); ++g) addRows(first + t, answers[g], g, each[t][g]);
+    });
+    for (const std::vector<LeftOutSums>& own : each) {
+      for (std::size_t g = 0; g < own.size(); ++g) all[g].merge(own[g]);
     }
   }
+  for (LeftOutSums& sums : all) sums.finish();
   return all;
 }
 
 HistorySums HistoryFolds::whole() const {
-  std::vector<Sums> each(calibration_.no_model.size(),
-                         {HistorySums(grid_.features()), HistorySums(grid_.features())});
+  std::vector<LeftOutSums> each(calibration_.no_model.size(), LeftOutSums(grid_.features()));
   forEachModelledTaxel(
       [&](std::size_t taxel) { addRows(taxel, answersOfTables(taxel), count(), each[taxel]); });
   HistorySums all(grid_.features());
-  for (const Sums& own : each) all.merge(own.trained);
+  for (const LeftOutSums& own : each) all.merge(own.trained);
   return all;
 }
 
@@ -243,28 +248,38 @@ std::size_t HistoryFolds::firstOperator(const HistoryModel& model) const {
 
 void HistoryFolds::addErrors(std::size_t taxel, const Answers& answers, std::size_t protocol,
                              std::size_t first_operator, const Eigen::VectorXd& coefficients,
-                             HistoryErrors& errors) const {
+                             const OpenDeviation& open_deviation, HistoryErrors& errors) const {
   Eigen::VectorXd features(Eigen::Index(grid_.features()));
   for (const HistoryStream& stream : streams_) {
-    stream.run(taxel, answers, [&](const HistoryStream::Scan& scan, double x, const double* state) {
-      if (scan.protocol != protocol) return;
-      historyFeatures(grid_, x, state, features.data());
-      errors.add({x, x + coefficients.dot(features), stream.recording().pressure[scan.number],
-                  state[first_operator] > x, stream.sections().direction[scan.number], scan.since_reversal});
-    });
+    stream.run(taxel, answers,
+               [&](const HistoryStream::Scan& scan, double x, const double* state, const double* open) {
+                 if (scan.protocol != protocol) return;
+                 historyFeatures(grid_, x, state, features.data());
+                 const double unknown = open_deviation(open);
+                 features.head(Eigen::Index(grid_.knots.size())) *= open_deviation.knownShare(unknown);
+                 errors.add({x, x + coefficients.dot(features), stream.recording().pressure[scan.number],
+                             unknown, state[first_operator] > x, stream.sections().direction[scan.number],
+                             scan.since_reversal});
+               });
   }
 }
 
 HistoryErrors HistoryFolds::errors(const HistoryModel& model,
-                                   const std::vector<Eigen::VectorXd>& coefficients) const {
+                                   const std::vector<Eigen::VectorXd>& coefficients,
+                                   const std::vector<double>& spreads, double known) const {
   const std::size_t first = firstOperator(model);
-  std::vector<HistoryErrors> each(calibration_.no_model.size(), HistoryErrors(protocols_.highest));
+  const HistoryErrors none(protocols_.highest, known);
+  std::vector<HistoryErrors> each(calibration_.no_model.size(), none);
+  std::vector<OpenDeviation> open;
+  for (const Eigen::VectorXd& own : coefficients)
+    open.emplace_back(std::vector<double>(own.data() + grid_.knots.size(), own.data() + own.size()),
+                      grid_.radii, spreads);
   forEachModelledTaxel([&](std::size_t taxel) {
     const std::vector<Answers> answers = answersWithoutEach(taxel);
     for (std::size_t g = 0; g < count(); ++g)
-      addErrors(taxel, answers[g], g, first, coefficients[g], each[taxel]);
+      addErrors(taxel, answers[g], g, first, coefficients[g], open[g], each[taxel]);
   });
-  HistoryErrors all(protocols_.highest);
+  HistoryErrors all = none;
   for (const HistoryErrors& own : each) all.merge(own);
   return all;
 }

@@ -17,13 +17,15 @@ namespace fsr::calibration {
 /// Errors of the readings of protocols that were left out, of the static answer and with a history model.
 class HistoryErrors {
  public:
-  /// `highest`: largest pressure of the bags [Pa].
-  explicit HistoryErrors(double highest);
+  /// `highest`: largest pressure of the bags [Pa]. `known`: a reading whose open deviation is not larger
+  /// counts for the deviations of the model [Pa].
+  HistoryErrors(double highest, double known);
 
   struct Reading {
     double static_answer = 0;  ///< [Pa]
     double answer = 0;         ///< [Pa]
     double truth = 0;          ///< [Pa]
+    double open = 0;           ///< deviation from what is not known of the operators [Pa]
     bool unloading = false;    ///< as the model sees it, see HistoryModel
     statistics::LoadDirection direction = statistics::LoadDirection::kNone;  ///< of the chamber
     double since_reversal = 0;                                               ///< [s]
@@ -44,8 +46,9 @@ class HistoryErrors {
 
   struct Sum {
     std::uint64_t readings = 0;
-    double static_square = 0, square = 0;                                   // [Pa^2]
-    std::array<std::array<std::uint64_t, kLevels>, 2 * kBins> errors = {};  // loading, then unloading
+    double static_square = 0, square = 0;  // [Pa^2]
+    // Of what the error has beyond its open deviation; loading, then unloading.
+    std::array<std::array<std::uint64_t, kLevels>, 2 * kBins> errors = {};
   };
 
   std::size_t bin(const Reading& reading) const;
@@ -53,8 +56,8 @@ class HistoryErrors {
   double quantile(std::size_t bin) const;
   double level(std::size_t number) const;
 
-  double highest_;
-  std::vector<Sum> parts_;
+  double highest_, known_;
+  std::vector<Sum> parts_;  // the last one: those that count for the deviations
 };
 
 /// The bags of a training, divided by protocol: each protocol in turn is answered by tables that were trained
@@ -70,15 +73,16 @@ class HistoryFolds {
   const HistoryGrid& grid() const { return grid_; }
   const dataset::Protocols& protocols() const { return protocols_; }
 
-  using Sums = LeftOutSums;
   /// Of all taxels, [protocols].
-  std::vector<Sums> leaveOneOut() const;
+  std::vector<LeftOutSums> leaveOneOut() const;
   /// With the tables of the calibration, which were trained on all protocols.
   HistorySums whole() const;
 
   /// Errors of the readings of each protocol, predicted without it. `coefficients` [protocols] were trained
-  /// without the protocol, `model` on all of them.
-  HistoryErrors errors(const HistoryModel& model, const std::vector<Eigen::VectorXd>& coefficients) const;
+  /// without the protocol, `model` on all of them. `spreads`: see memorySpreads(). `known`: see
+  /// HistoryErrors.
+  HistoryErrors errors(const HistoryModel& model, const std::vector<Eigen::VectorXd>& coefficients,
+                       const std::vector<double>& spreads, double known) const;
 
  private:
   using Answers = std::vector<StaticAnswer>;  // of one taxel, [classes]
@@ -86,9 +90,10 @@ class HistoryFolds {
   std::size_t count() const { return protocols_.names.size(); }
   std::vector<Answers> answersWithoutEach(std::size_t taxel) const;
   Answers answersOfTables(std::size_t taxel) const;
-  void addRows(std::size_t taxel, const Answers& answers, std::size_t left_out, Sums& sums) const;
+  void addRows(std::size_t taxel, const Answers& answers, std::size_t left_out, LeftOutSums& sums) const;
   void addErrors(std::size_t taxel, const Answers& answers, std::size_t protocol, std::size_t first_operator,
-                 const Eigen::VectorXd& coefficients, HistoryErrors& errors) const;
+                 const Eigen::VectorXd& coefficients, const OpenDeviation& open_deviation,
+                 HistoryErrors& errors) const;
   std::size_t firstOperator(const HistoryModel& model) const;
   template <typename Work>
   void forEachModelledTaxel(Work&& work) const;
@@ -100,7 +105,8 @@ class HistoryFolds {
   std::vector<std::vector<double>> judged_;
   HistoryGrid grid_;
   std::vector<HistoryStream> streams_;
-  TrainingScans scans_;  // the section of a scan is its protocol; the last one is of no protocol
+  std::vector<Answers> limits_;  // [protocols][classes], the pressures of training alone
+  TrainingScans scans_;          // the section of a scan is its protocol; the last one is of no protocol
 };
 
 }  // namespace fsr::calibration

@@ -6,36 +6,61 @@
 
 namespace fsr::calibration {
 
-HistoryOperators::HistoryOperators(std::vector<double> radii, const std::vector<double>& time_constants)
-    : radii_(std::move(radii)), memories_(time_constants.begin(), time_constants.end()) {
+namespace {
+
+constexpr double kLargest = 1e30;    // answer [Pa]; a map holds no infinite pressure
+constexpr double kNegligible = 0.1;  // of the smallest deviation: it then grows by 0.5 %
+
+std::vector<double> weightsOf(const HistoryModel& model) {
+  std::vector<double> weights = model.play_weight;
+  weights.insert(weights.end(), model.memory_weight.begin(), model.memory_weight.end());
+  return weights;
+}
+
+// Of inputs evenly between the knots, where the model has none.
+std::vector<double> spreadsOf(const HistoryModel& model) {
+  if (!model.memory_spread.empty()) return model.memory_spread;
+  return std::vector<double>(model.time_constant.size(),
+                             (model.knot.back() - model.knot.front()) / std::sqrt(12.0));
+}
+
+}  // namespace
+
+HistoryOperators::HistoryOperators(std::vector<double> radii, const std::vector<double>& time_constants,
+                                   double highest)
+    : radii_(std::move(radii)), memories_(time_constants.begin(), time_constants.end()), highest_(highest) {
   for (const double radius : radii_) {
     if (!(radius > 0)) throw std::invalid_argument("the radius of a play must be above 0");
   }
 }
 
-namespace {
-
-constexpr double kLargest = 1e30;  // answer [Pa]; a map holds no infinite pressure
-constexpr double kLongAgo = 1e30;  // [s]
-
-}  // namespace
+OpenDeviation::OpenDeviation(std::vector<double> weights, const std::vector<double>& radii,
+                             const std::vector<double>& spreads)
+    : each_(std::move(weights)) {
+  const std::size_t plays = radii.size();
+  double whole = 0;
+  for (std::size_t k = 0; k < each_.size(); ++k) {
+    each_[k] = std::abs(each_[k]) * (k < plays ? 1 / std::sqrt(3.0) : spreads[k - plays]);
+    whole += each_[k] * (k < plays ? radii[k] : 1);
+  }
+  if (whole > 0) per_whole_ = 1 / whole;
+}
 
 HistoryState::HistoryState(const HistoryModel& model, std::size_t taxels)
-    : model_(model),
-      operators_(model.radius, model.time_constant),
-      weights_(model.play_weight),
+    : operators_(model.radius, model.time_constant, model.knot.back()),
+      weights_(weightsOf(model)),
       correction_(model.knot, model.correction),
       loading_deviation_(model.deviation_knot, model.loading_deviation),
       unloading_deviation_(model.deviation_knot, model.unloading_deviation),
-      settling_time_(model.settlingTime()),
-      allowed_(model.smallestDeviation()),
-      longest_gap_(model.time_constant.empty() ? kLongestGap : settlingTime(model.time_constant)),
+      open_deviation_(weights_, model.radius, spreadsOf(model)),
+      negligible_(kNegligible * model.smallestDeviation()),
       steps_(operators_.memories()),
       spell_steps_(operators_.memories()),
       known_(taxels, Known::kNothing),
       taxels_(taxels),
-      states_(taxels * operators_.size()) {
-  weights_.insert(weights_.end(), model.memory_weight.begin(), model.memory_weight.end());
+      limited_(taxels),
+      states_(taxels * operators_.size()),
+      open_(taxels * operators_.size()) {
   for (const double weight : weights_) weight_sum_ += weight;
 }
 
@@ -50,17 +75,13 @@ void HistoryState::rest() noexcept {
 void HistoryState::beginScan(double time) noexcept {
   if (!std::isfinite(time)) return;
   const double duration = time - time_;
-  if (started_ && (duration < 0 || duration > longest_gap_)) forget();
+  if (started_ && duration < 0) forget();
   started_ = true;
   before_ = time_;
   time_ = time;
   if (duration == duration_ || !(duration >= 0)) return;
   operators_.stepsOver(duration, steps_.data());
   duration_ = duration;
-}
-
-bool HistoryState::settled(const Taxel& taxel) const noexcept {
-  return time_ - taxel.since >= settling_time_ && model_.playsOwe(taxel.lowest, taxel.highest) <= allowed_;
 }
 
 // Taxels that return together share their steps.
@@ -70,64 +91,58 @@ const HistoryState::Steps& HistoryState::stepsOfSpell(double duration) noexcept 
   return spell_steps_;
 }
 
-// The largest error of the memories from an input between the knots that was not known over these steps [Pa].
-double HistoryState::memoriesMiss(const Steps& steps) const noexcept {
-  double missed = 0;
-  for (std::size_t k = 0; k < steps.size(); ++k) missed += std::abs(model_.memory_weight[k]) * steps[k].fade;
-  return missed * (model_.knot.back() - model_.knot.front());
-}
-
 void HistoryState::atLeast(std::size_t taxel, double pressure) noexcept {
-  if (std::isfinite(pressure)) taxels_[taxel].limit = std::max(taxels_[taxel].limit, pressure);
+  if (!std::isfinite(pressure)) return;
+  taxels_[taxel].limit = pressure;
+  limited_[taxel] = time_;
 }
 
-bool HistoryState::correct(std::size_t taxel, bool frozen, float& pressure, float& deviation) noexcept {
-  const double x = static_cast<double>(pressure);
-  Known& known = known_[taxel];
-  if (frozen || !std::isfinite(x)) {
-    if (known == Known::kRest) known = Known::kNothing;  // the next reading may be one under load
-    return false;
-  }
-  Taxel& own = taxels_[taxel];
+// Takes a reading into the state of a taxel.
+void HistoryState::meet(std::size_t taxel, double x) noexcept {
+  HistoryTaxel& own = taxels_[taxel];
   double* const state = &states_[taxel * operators_.size()];
-  if (known == Known::kReadings && time_ - own.at > longest_gap_) known = Known::kNothing;
-  if (known != Known::kReadings) {
-    operators_.startConditioned(x, state);
-    const bool rested = known == Known::kRest;
-    own = {};
-    own.last = own.lowest = own.highest = x;
-    own.at = time_;
-    own.since = rested ? -kLongAgo : time_;
-    own.settled = rested || settled(own);
-    known = Known::kReadings;
+  double* const open = &open_[taxel * operators_.size()];
+  if (known_[taxel] != Known::kReadings) {
+    operators_.start(x, state, open);
+    own.open = known_[taxel] == Known::kNothing;
+    known_[taxel] = Known::kReadings;
+  } else if (own.at < before_ || time_ - own.at > kLongestGap) {
+    if (!own.open) std::fill_n(open, operators_.size(), 0.0);
+    if (limited_[taxel] != before_) own.limit = -HistoryOperators::kNone;
+    operators_.advanceUnseen(own.last, x, own.limit, stepsOfSpell(time_ - own.at).data(), state, open);
+    own.open = true;
+  } else if (own.open) {
+    operators_.advanceOpen(own.last, x, steps_.data(), state, open);
   } else {
-    const bool spell = own.at < before_;  // without a reading of this taxel
-    const Steps& steps = spell ? stepsOfSpell(time_ - own.at) : steps_;
-    if (spell && own.limit > x) operators_.advancePlays(own.limit, state);
-    operators_.advance(own.last, x, steps.data(), state);
-    own.last = x;
-    own.at = time_;
-    if (spell) {  // the load may have been anywhere meanwhile
-      own.lowest = x;
-      own.highest = std::max(x, own.limit);
-      own.limit = -kNoLimit;
-      if (memoriesMiss(steps) > allowed_) own.since = time_;
-      own.settled = settled(own);
-    } else if (!own.settled) {
-      own.lowest = std::min(own.lowest, x);
-      own.highest = std::max(own.highest, x);
-      own.settled = settled(own);
-    }
+    operators_.advance(own.last, x, steps_.data(), state);
   }
-  if (!own.settled) return false;
+  own.last = x;
+  own.at = time_;
+  own.limit = -HistoryOperators::kNone;
+}
+
+HistoryAnswer HistoryState::correct(std::size_t taxel, bool frozen, float& pressure,
+                                    float& deviation) noexcept {
+  const double x = static_cast<double>(pressure);
+  if (frozen || !std::isfinite(x)) {
+    // The next reading may be one under load.
+    if (known_[taxel] == Known::kRest) known_[taxel] = Known::kNothing;
+    return HistoryAnswer::kNoReading;
+  }
+  meet(taxel, x);
+  HistoryTaxel& own = taxels_[taxel];
+  const double* const state = &states_[taxel * operators_.size()];
+  const double unknown = own.open ? open_deviation_(&open_[taxel * operators_.size()]) : 0;
   double sum = 0;
   for (std::size_t k = 0; k < weights_.size(); ++k) sum += weights_[k] * state[k];
-  const double corrected = x + correction_(x) + (sum - weight_sum_ * x);
-  if (!(std::abs(corrected) < kLargest)) return false;
+  const double corrected = x + correction_(x) * open_deviation_.knownShare(unknown) + (sum - weight_sum_ * x);
+  if (!(std::abs(corrected) < kLargest)) return HistoryAnswer::kNoReading;
   pressure = static_cast<float>(corrected);
   const bool unloading = !weights_.empty() && state[0] > x;
-  deviation = static_cast<float>(unloading ? unloading_deviation_(corrected) : loading_deviation_(corrected));
-  return true;
+  const double settled = unloading ? unloading_deviation_(corrected) : loading_deviation_(corrected);
+  own.open = unknown > negligible_;
+  deviation = static_cast<float>(own.open ? std::hypot(settled, unknown) : settled);
+  return isSettled(settled, unknown) ? HistoryAnswer::kSettled : HistoryAnswer::kOpen;
 }
 
 }  // namespace fsr::calibration

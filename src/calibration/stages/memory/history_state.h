@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <utility>
 #include <vector>
 
 #include "fsr_pressure_map/calibration/history.h"
@@ -44,62 +46,143 @@ class EvenLine {
   std::vector<double> values_;
 };
 
-/// Play operators and fading memories that are driven by one input. The operators are constant; the caller
-/// stores the state, one number for each operator, plays first.
+/// Play operators and fading memories that are driven by one input. The operators are constant. The caller
+/// stores two arrays with a number for each operator, plays first: `state`, the estimate, and `open`, what is
+/// not known of it. A play lies within `open` [unit of the input] of its state; `open` of a memory is the
+/// share of its value that stems from inputs that were not seen, 0 to 1.
 class HistoryOperators {
  public:
+  using Step = rheology::ExponentialMemory::Step;
+
   /// `radii` [in the unit of the input], `time_constants` [s], each above 0, else std::invalid_argument.
-  HistoryOperators(std::vector<double> radii, const std::vector<double>& time_constants);
+  /// `highest`: largest input that the sheet knows.
+  HistoryOperators(std::vector<double> radii, const std::vector<double>& time_constants,
+                   double highest = std::numeric_limits<double>::infinity());
 
   std::size_t size() const { return radii_.size() + memories_.size(); }
   std::size_t plays() const { return radii_.size(); }
   std::size_t memories() const { return memories_.size(); }
 
-  /// Sets the state as after a long time at the input `x`.
-  void start(double x, double* state) const {
-    for (std::size_t k = 0; k < size(); ++k) state[k] = x;
-  }
-
-  /// Sets the state for a first input `x` on a sheet that was conditioned: no input is ever below 0, and
-  /// there was one above 2 r before. Then a play is never below r, and it lies between max(r, x - r) and x +
-  /// r; it starts in the middle. At x = 0 this is x + r: the branch of unloading. Memories start as after a
-  /// long time at x.
-  void startConditioned(double x, double* state) const {
-    start(x, state);
+  /// A first input `x` on a sheet that was conditioned: earlier inputs went from 0 to more than 2 r, and
+  /// never beyond `highest`. A play is known at rest, x = 0, where it is on the branch of unloading. Under
+  /// load it lies between the branches; it starts in the middle. Memories start as after a long time at x.
+  void start(double x, double* state, double* open) const {
     for (std::size_t j = 0; j < radii_.size(); ++j)
-      state[j] = std::max(x, std::min(radii_[j] + x / 2, radii_[j] + x));
+      setPlay(possible(x, -kNone, radii_[j]), state[j], open[j]);
+    for (std::size_t k = radii_.size(); k < size(); ++k) state[k] = x, open[k] = 1;
   }
 
   /// The steps of the memories over `duration` [s], 0 or more; `steps` has memories() entries.
-  void stepsOver(double duration, rheology::ExponentialMemory::Step* steps) const {
+  void stepsOver(double duration, Step* steps) const {
     for (std::size_t k = 0; k < memories_.size(); ++k) steps[k] = memories_[k].over(duration);
   }
 
-  /// Changes the state of the plays for an input that went to `to`.
-  void advancePlays(double to, double* state) const {
+  /// Changes a state of which all is known, for an input that went linearly from `from` to `to`.
+  void advance(double from, double to, const Step* steps, double* state) const {
     for (std::size_t j = 0; j < radii_.size(); ++j) state[j] = rheology::playStep(to, radii_[j], state[j]);
+    advanceMemories(from, to, steps, state);
   }
 
-  /// Changes the state for an input that went linearly from `from` to `to`.
-  void advance(double from, double to, const rheology::ExponentialMemory::Step* steps, double* state) const {
-    advancePlays(to, state);
+  /// The same where some of it is open. A play is monotone in its state, so the ends of its interval are
+  /// advanced like plays. They meet once the input has covered 2 r.
+  void advanceOpen(double from, double to, const Step* steps, double* state, double* open) const {
+    for (std::size_t j = 0; j < radii_.size(); ++j)
+      setPlay({rheology::playStep(to, radii_[j], state[j] - open[j]),
+               rheology::playStep(to, radii_[j], state[j] + open[j])},
+              state[j], open[j]);
+    advanceMemories(from, to, steps, state);
+    for (std::size_t k = 0; k < memories_.size(); ++k) open[radii_.size() + k] *= 1 - steps[k].fade;
+  }
+
+  /// The same over a spell in which the input was not seen. It came from `limit` or more to `to`; -infinity =
+  /// nothing is known.
+  void advanceUnseen(double from, double to, double limit, const Step* steps, double* state,
+                     double* open) const {
+    for (std::size_t j = 0; j < radii_.size(); ++j)
+      setPlay(possible(to, limit, radii_[j]), state[j], open[j]);
+    advanceMemories(from, to, steps, state);
+    for (std::size_t k = 0; k < memories_.size(); ++k)
+      open[radii_.size() + k] += (1 - open[radii_.size() + k]) * steps[k].fade;
+  }
+
+  static constexpr double kNone = std::numeric_limits<double>::infinity();
+
+ private:
+  struct Span {
+    double low, high;
+  };
+  // Where a play can be at the input x, after one of `limit` or more; how much more is then not known.
+  Span possible(double x, double limit, double r) const {
+    const double high = x + r, top = limit > -kNone ? kNone : std::max(highest_, x);
+    const double low = std::min(high, std::max({r, x - r, limit - r}));
+    return {low, std::max(low, std::min(high, top - r))};
+  }
+  static void setPlay(const Span& span, double& state, double& open) {
+    state = (span.low + span.high) / 2;
+    open = (span.high - span.low) / 2;
+  }
+  void advanceMemories(double from, double to, const Step* steps, double* state) const {
     double* const memory = state + radii_.size();
     for (std::size_t k = 0; k < memories_.size(); ++k) memory[k] = steps[k](from, to, memory[k]);
   }
 
- private:
   std::vector<double> radii_;
   std::vector<rheology::ExponentialMemory> memories_;
+  double highest_;
+};
+
+/// The standard deviation of an answer from what is open of its operators [Pa]. A play is taken as evenly
+/// distributed in its interval. The operators err in the same direction, since the same earlier load moved
+/// them all, so their parts add up.
+class OpenDeviation {
+ public:
+  /// `weights` of the operators, plays first; `radii` of the plays; `spreads` of the memories, see
+  /// HistoryModel.
+  OpenDeviation(std::vector<double> weights, const std::vector<double>& radii,
+                const std::vector<double>& spreads);
+  double operator()(const double* open) const {
+    double sum = 0;
+    for (std::size_t k = 0; k < each_.size(); ++k) sum += each_[k] * open[k];
+    return sum;
+  }
+  /// Of the operators, the share that is known where this deviation [Pa] is open. The correction c is the
+  /// operators' mean in training with its sign reversed, so it is used as far as they are known: where
+  /// nothing is, the static answer stands.
+  double knownShare(double deviation) const { return 1 - std::min(deviation * per_whole_, 1.0); }
+
+ private:
+  std::vector<double> each_;  // of open = 1 [Pa]
+  double per_whole_ = 0;      // 1 / deviation where all is open
+};
+
+/// Whether an answer is settled: what is open makes its deviation at most twice the settled one.
+inline bool isSettled(double settled_deviation, double open_deviation) {
+  return open_deviation * open_deviation <= 3 * settled_deviation * settled_deviation;
+}
+
+/// The course of one taxel, as training and the live map follow it.
+struct HistoryTaxel {
+  double last = 0;                          ///< x of its last reading [Pa]
+  double at = 0;                            ///< time of its last reading [s]
+  double limit = -HistoryOperators::kNone;  ///< least pressure in the scan before its next reading [Pa]
+  bool open = false;                        ///< something of its operators is open
+};
+
+/// Inputs between scans that are further apart are not known [s].
+constexpr double kLongestGap = 60;
+
+/// What HistoryState says of a reading.
+enum class HistoryAnswer : std::uint8_t {
+  kNoReading,  ///< the static answer stands
+  kOpen,       ///< corrected, but not settled
+  kSettled,
 };
 
 /// The memory of every taxel of a live map. All memory is allocated by the constructor.
 ///
-/// A taxel is settled once what is not known of the time before its first reading no longer matters: after
-/// HistoryModel::settlingTime(), and once HistoryModel::playsOwe() less than the smallest deviation. That is
-/// so after a wide change of load, and at rest, where the plays cannot be elsewhere. Until then the static
-/// answer stands. The same holds after a spell in which the taxel alone had no reading: its state steps over
-/// the spell as if the load had changed evenly, and it is settled again once what is not known of the spell
-/// no longer matters.
+/// A taxel has the model's answer from its first reading on. What is not known of the time before makes its
+/// deviation larger, and less so as the load moves and time passes. The same holds after a spell in which the
+/// taxel had no reading: its state steps over the spell as if the load had changed evenly.
 class HistoryState {
  public:
   /// `model` must be present().
@@ -108,53 +191,34 @@ class HistoryState {
   /// Forgets the readings of all taxels, or of one.
   void forget() noexcept;
   void forget(std::size_t taxel) noexcept { known_[taxel] = Known::kNothing; }
-  /// The sheet has lain at rest for long: with their next reading all taxels are settled there.
+  /// The sheet has lain at rest for long: with their next reading all is known of all taxels.
   void rest() noexcept;
 
-  /// Begins the scan of `time` [s]. Time that runs back, or a gap longer than the settling time of the
-  /// memories (without memories: than kLongestGap), forgets all readings.
+  /// Begins the scan of `time` [s]. Time that runs back forgets all readings.
   void beginScan(double time) noexcept;
 
-  /// Corrects the static answer of one taxel in the scan that was begun; `pressure` and `deviation` [Pa] are
-  /// changed only if the taxel is settled. Returns whether it is. `frozen`, or a pressure that is not finite:
-  /// the reading is none, and the taxel is not settled.
-  bool correct(std::size_t taxel, bool frozen, float& pressure, float& deviation) noexcept;
+  /// Corrects the static answer of one taxel in the scan that was begun. `frozen`, or a pressure that is not
+  /// finite: the reading is none, and `pressure` and `deviation` [Pa] stay as they are.
+  HistoryAnswer correct(std::size_t taxel, bool frozen, float& pressure, float& deviation) noexcept;
 
-  /// The reading is saturated, and `pressure` [Pa] a lower limit. Plays that the way
-  /// back from there to the next reading moves are settled then.
+  /// The reading is saturated, and `pressure` [Pa] a lower limit.
   void atLeast(std::size_t taxel, double pressure) noexcept;
-
-  static constexpr double kLongestGap = 60;  ///< [s]
 
  private:
   enum class Known : std::uint8_t { kNothing, kRest, kReadings };
-  static constexpr double kNoLimit = 1e30;  // [Pa]
-  struct Taxel {
-    double last = 0;           // x of its last reading [Pa]
-    double at = 0;             // time of its last reading [s]
-    double lowest = 0;         // x since the first reading, or since a spell without one [Pa]
-    double highest = 0;        // likewise
-    double since = 0;          // time from which on the memories know their input [s]
-    double limit = -kNoLimit;  // of atLeast(), since its last reading [Pa]
-    bool settled = false;
-  };
+  using Steps = std::vector<HistoryOperators::Step>;
 
-  using Steps = std::vector<rheology::ExponentialMemory::Step>;
-
-  bool settled(const Taxel& taxel) const noexcept;
   const Steps& stepsOfSpell(double duration) noexcept;
-  double memoriesMiss(const Steps& steps) const noexcept;
+  void meet(std::size_t taxel, double x) noexcept;
 
-  HistoryModel model_;
   HistoryOperators operators_;
   std::vector<double> weights_;  // of the operators
   double weight_sum_ = 0;
   EvenLine correction_;
   EvenLine loading_deviation_;
   EvenLine unloading_deviation_;
-  double settling_time_;  // [s]
-  double allowed_;        // that the plays may owe [Pa]
-  double longest_gap_;    // [s]
+  OpenDeviation open_deviation_;
+  double negligible_;  // deviation from what is open [Pa]
 
   bool started_ = false;
   double time_ = 0;       // of the scan [s]
@@ -162,9 +226,11 @@ class HistoryState {
   double duration_ = -1;  // that steps_ are for [s]
   double spell_ = -1;     // that spell_steps_ are for [s]
   Steps steps_, spell_steps_;
-  std::vector<Known> known_;    // [taxels]
-  std::vector<Taxel> taxels_;   // [taxels]
-  std::vector<double> states_;  // [taxels x operators]
+  std::vector<Known> known_;          // [taxels]
+  std::vector<HistoryTaxel> taxels_;  // [taxels]
+  std::vector<double> limited_;       // [taxels], time of the limit [s]
+  std::vector<double> states_;        // [taxels x operators]
+  std::vector<double> open_;          // [taxels x operators], while the taxel is open
 };
 
 }  // namespace fsr::calibration

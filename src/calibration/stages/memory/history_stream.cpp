@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <tuple>
 #include <utility>
-
-#include "calibration/stages/memory/history_state.h"
 
 namespace fsr::calibration {
 
@@ -19,21 +18,21 @@ constexpr std::size_t kMostInMemory = 8u << 20;  // of the scans of a recording,
 
 }  // namespace
 
-HistoryStream::HistoryStream(const dataset::Recording& recording, const std::vector<std::size_t>& classes,
-                             const dataset::Sections& sections, const std::vector<std::uint32_t>& protocol,
-                             const HistoryGrid& grid, std::vector<Session> sessions)
+HistoryStream::HistoryStream(const dataset::Recording& recording, std::size_t number,
+                             const std::vector<std::size_t>& classes, const dataset::Sections& sections,
+                             const dataset::Protocols& protocols, const HistoryGrid& grid,
+                             std::vector<Session> sessions)
     : recording_(&recording),
       sections_(&sections),
       operators_(operatorsOf(grid)),
       sessions_(std::move(sessions)),
       scans_(kMostInMemory),
       steps_(kMostInMemory) {
-  const std::vector<double> counts_from = countsFrom(settlingTime(grid.time_constants));
+  const std::vector<std::uint32_t>& protocol = protocols.of_scan[number];
   const std::size_t memories = operators_.memories();
   if (memories > 0) steps_.begin(memories, recording.scans());
   std::vector<Step> steps(memories);
   std::optional<Scan> last;
-  std::size_t stay = 0;
   double row_begins = 0, turned = 0;
   for (std::size_t i = 0; i < recording.scans(); ++i) {
     if (sections.section[i] == dataset::kNoSection) continue;
@@ -42,13 +41,13 @@ HistoryStream::HistoryStream(const dataset::Recording& recording, const std::vec
     scan.number = static_cast<std::uint32_t>(i);
     scan.curvature_class = static_cast<std::uint16_t>(classes[recording.condition[i]]);
     scan.protocol = protocol[i];
+    if (!protocols.part_of_scan.empty()) scan.part = protocols.part_of_scan[number][i];
     scan.starts = !last || starts(i, last->number);
-    if (last && scan.starts) ++stay;
-    scan.settled = time >= counts_from[stay];
     if (scan.starts || sections.direction[i] != sections.direction[last->number]) turned = time;
     scan.since_reversal = time - turned;
     scan.row = last ? last->row : 0;
-    if (scan.starts || protocol[i] != last->protocol || time >= row_begins + kRow) {
+    if (scan.starts || protocol[i] != last->protocol || scan.part != last->part ||
+        time >= row_begins + kRow) {
       ++scan.row;
       row_begins = time;
     }
@@ -64,30 +63,18 @@ HistoryStream::HistoryStream(const dataset::Recording& recording, const std::vec
 
 // Whether nothing is known before a scan that follows another one.
 bool HistoryStream::starts(std::size_t scan, std::size_t before) const {
-  const double duration = recording_->time[scan] - recording_->time[before];
-  return recording_->condition[scan] != recording_->condition[before] || duration < 0 ||
-         duration > HistoryState::kLongestGap;
+  return recording_->condition[scan] != recording_->condition[before] ||
+         recording_->time[scan] < recording_->time[before];
 }
 
-// The time from which on the scans of each stay on a surface count: after the settling time, but at least two
-// thirds of the stay [s].
-std::vector<double> HistoryStream::countsFrom(double settling_time) const {
-  struct Stay {
-    double begin, end;
-  };
-  std::vector<Stay> stays;
-  std::size_t last = 0;
-  for (std::size_t i = 0; i < recording_->scans(); ++i) {
-    if (sections_->section[i] == dataset::kNoSection) continue;
-    const double time = recording_->time[i];
-    if (stays.empty() || starts(i, last)) stays.push_back({time, time});
-    stays.back().end = time;
-    last = i;
-  }
-  std::vector<double> counts;
-  for (const Stay& stay : stays)
-    counts.push_back(stay.begin + std::min(settling_time, (stay.end - stay.begin) / 3));
-  return counts;
+// Whether something is still open; memories of which nearly all is known are closed.
+bool HistoryStream::closeWhatIsKnown(std::vector<double>& open) const {
+  constexpr double kNearlyAll = 1e-3;
+  const auto memories = open.begin() + static_cast<std::ptrdiff_t>(operators_.plays());
+  const bool some = std::any_of(open.begin(), memories, [](double width) { return width > 0; }) ||
+                    std::any_of(memories, open.end(), [](double share) { return share > kNearlyAll; });
+  if (!some) std::fill(memories, open.end(), 0.0);
+  return some;
 }
 
 // [conditions]
@@ -101,6 +88,39 @@ std::vector<double> HistoryStream::zerosOf(std::size_t taxel,
   return zeros;
 }
 
+void setTrainedPressures(const std::vector<HistoryStream>& streams, std::size_t left_out,
+                         std::vector<StaticAnswer>& answers) {
+  std::vector<std::pair<double, double>> range(answers.size(), {1, 0});
+  for (const HistoryStream& stream : streams) {
+    stream.forEachScan([&](const HistoryStream::Scan& scan) {
+      if (scan.protocol == left_out) return;
+      auto& [low, high] = range[scan.curvature_class];
+      const double pressure = stream.recording().pressure[scan.number];
+      const bool first = low > high;
+      low = first ? pressure : std::min(low, pressure);
+      high = first ? pressure : std::max(high, pressure);
+    });
+  }
+  for (std::size_t k = 0; k < answers.size(); ++k)
+    std::tie(answers[k].lowest_pressure, answers[k].highest_pressure) = range[k];
+}
+
+HistorySums& LeftOutSums::part(std::size_t number) {
+  while (left_out.size() <= number)
+    left_out.emplace_back(static_cast<std::size_t>(trained.gram().rows()) - 1);
+  return left_out[number];
+}
+
+void LeftOutSums::finish() {
+  trained.finish();
+  for (HistorySums& sums : left_out) sums.finish();
+}
+
+void LeftOutSums::merge(const LeftOutSums& other) {
+  trained.merge(other.trained);
+  for (std::size_t k = 0; k < other.left_out.size(); ++k) part(k).merge(other.left_out[k]);
+}
+
 void addHistoryRows(const HistoryStream& stream, const HistoryGrid& grid, std::size_t taxel,
                     const std::vector<StaticAnswer>& answers, std::size_t left_out, LeftOutSums& sums,
                     const std::vector<double>* judged) {
@@ -111,19 +131,20 @@ void addHistoryRows(const HistoryStream& stream, const HistoryGrid& grid, std::s
   const auto close = [&] {
     if (count == 0) return;
     for (double& value : mean) value /= count;
-    (row.protocol == left_out ? sums.left_out : sums.trained).add(mean.data(), target / count);
+    (row.protocol == left_out ? sums.part(row.part) : sums.trained).add(mean.data(), target / count);
     std::fill(mean.begin(), mean.end(), 0.0);
     target = count = 0;
   };
-  stream.run(taxel, answers, [&](const HistoryStream::Scan& scan, double x, const double* state) {
-    if (scan.row != row.row) close();
-    row = scan;
-    historyFeatures(grid, x, state, features.data());
-    for (std::size_t k = 0; k < n; ++k) mean[k] += features[k];
-    const bool is_judged = judged != nullptr && scan.protocol == left_out;
-    target += (is_judged ? *judged : stream.recording().pressure)[scan.number] - x;
-    count += 1;
-  });
+  stream.run(taxel, answers,
+             [&](const HistoryStream::Scan& scan, double x, const double* state, const double* /*open*/) {
+               if (scan.row != row.row) close();
+               row = scan;
+               historyFeatures(grid, x, state, features.data());
+               for (std::size_t k = 0; k < n; ++k) mean[k] += features[k];
+               const bool is_judged = judged != nullptr && scan.protocol == left_out;
+               target += (is_judged ? *judged : stream.recording().pressure)[scan.number] - x;
+               count += 1;
+             });
   close();
 }
 

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <utility>
 #include <vector>
 
 #include "calibration/stages/memory/history_fit.h"
@@ -20,38 +23,58 @@ struct StaticAnswer {
   std::vector<double> pressure;  ///< of each code [Pa]; empty = the class has no answer
   std::uint16_t lowest = 0;      ///< code of training
   std::uint16_t highest = 0xffff;
+  double lowest_pressure = -std::numeric_limits<double>::infinity();  ///< of training [Pa]
+  double highest_pressure = std::numeric_limits<double>::infinity();
+
+  bool trained(std::uint16_t code, double chamber) const {
+    return code >= lowest && code <= highest && chamber >= lowest_pressure && chamber <= highest_pressure;
+  }
 };
 
 /// The scans of one recording in the order of time, as the operators of a history model meet them.
 class HistoryStream {
+  template <typename T>
+  using Spool = dataset::RowSpool<T>;
+  using Step = HistoryOperators::Step;
+
  public:
   struct Scan {
     std::uint32_t number = 0;    ///< in the recording
     std::uint32_t protocol = 0;  ///< dataset::Protocols::kOther: of none
+    std::uint8_t part = 0;       ///< of the protocol, see dataset::Protocols
     std::uint32_t row = 0;       ///< scans of one row lie within half a second of one protocol
     std::uint16_t curvature_class = 0;
     bool starts = false;        ///< nothing is known of the readings before
-    bool settled = false;       ///< counts: the memories no longer depend on the start
     double since_reversal = 0;  ///< time since the chamber changed its direction [s]
   };
 
-  /// The arguments but `grid` must outlive the object. `classes`: of the conditions of this recording.
+  /// The arguments but `grid` and `protocols` must outlive the object. `number`: of the recording among those
+  /// of `protocols`. `classes`: of the conditions of this recording.
   /// `sessions`: where the operators meet the static answer after a tare, those of this recording.
-  HistoryStream(const dataset::Recording& recording, const std::vector<std::size_t>& classes,
-                const dataset::Sections& sections, const std::vector<std::uint32_t>& protocol,
-                const HistoryGrid& grid, std::vector<Session> sessions = {});
+  HistoryStream(const dataset::Recording& recording, std::size_t number,
+                const std::vector<std::size_t>& classes, const dataset::Sections& sections,
+                const dataset::Protocols& protocols, const HistoryGrid& grid,
+                std::vector<Session> sessions = {});
 
   const dataset::Recording& recording() const { return *recording_; }
   const dataset::Sections& sections() const { return *sections_; }
+  template <typename Visit>
+  void forEachScan(Visit&& visit) const {
+    Spool<Scan>::Reader scans(scans_);
+    for (std::size_t k = 0; k < scans_.rows(); ++k) visit(*scans[k]);
+  }
 
-  /// Drives the operators with the static answers of one taxel and calls visit(scan, x, state) for each scan
-  /// that counts. Codes at full scale are left out. Codes beyond those of training drive the operators, but
+  /// Drives the operators with the static answers of one taxel, as the live map does, and calls
+  /// visit(scan, x, state, open) for each scan that counts; see HistoryOperators for `state` and `open`.
+  /// Codes at full scale are left out. Codes and pressures beyond those of training drive the operators, but
   /// do not count: a table says nothing there.
   template <typename Visit>
   void run(std::size_t taxel, const std::vector<StaticAnswer>& answers, Visit&& visit) const {
-    std::vector<double> state(operators_.size());
+    std::vector<double> state(operators_.size()), open(operators_.size());
+    std::vector<Step> spell(operators_.memories());
     const std::vector<double> zeros = zerosOf(taxel, answers);
-    double last = 0;
+    HistoryTaxel own;
+    double before = 0;  // time of the scan before [s]
     bool known = false;
     dataset::TaxelCounts counts(*recording_, taxel);
     Spool<Scan>::Reader scans(scans_);
@@ -59,29 +82,40 @@ class HistoryStream {
     for (std::size_t k = 0; k < scans_.rows(); ++k) {
       const Scan& scan = *scans[k];
       known = known && !scan.starts;
+      const double time = recording_->time[scan.number], pressure = recording_->pressure[scan.number];
       const std::uint16_t code = counts[scan.number];
       const StaticAnswer& answer = answers[scan.curvature_class];
-      if (answer.pressure.empty() || code >= recording_->full_scale) continue;
+      const double last_time = std::exchange(before, time);
+      if (answer.pressure.empty()) continue;
       const double x = answer.pressure[code] - zeros[recording_->condition[scan.number]];
-      if (known) {
-        operators_.advance(last, x, operators_.memories() > 0 ? steps[k] : nullptr, state.data());
-      } else {
-        operators_.start(x, state.data());
+      if (code >= recording_->full_scale) {
+        own.limit = x;
+        continue;
       }
+      if (!known) {
+        operators_.start(x, state.data(), open.data());
+        own.open = true;
+      } else if (own.at < last_time || time - own.at > kLongestGap) {
+        operators_.stepsOver(time - own.at, spell.data());
+        operators_.advanceUnseen(own.last, x, own.limit, spell.data(), state.data(), open.data());
+        own.open = true;
+      } else {
+        const Step* const step = operators_.memories() > 0 ? steps[k] : nullptr;
+        if (own.open) operators_.advanceOpen(own.last, x, step, state.data(), open.data());
+        if (!own.open) operators_.advance(own.last, x, step, state.data());
+      }
+      if (own.open) own.open = closeWhatIsKnown(open);
+      own.last = x;
+      own.at = time;
+      own.limit = -HistoryOperators::kNone;
       known = true;
-      last = x;
-      const bool trained = code >= answer.lowest && code <= answer.highest;
-      if (scan.settled && trained) visit(scan, x, state.data());
+      if (answer.trained(code, pressure)) visit(scan, x, state.data(), open.data());
     }
   }
 
  private:
-  template <typename T>
-  using Spool = dataset::RowSpool<T>;
-  using Step = rheology::ExponentialMemory::Step;
-
   bool starts(std::size_t scan, std::size_t before) const;
-  std::vector<double> countsFrom(double settling_time) const;
+  bool closeWhatIsKnown(std::vector<double>& open) const;
   std::vector<double> zerosOf(std::size_t taxel, const std::vector<StaticAnswer>& answers) const;
 
   const dataset::Recording* recording_;
@@ -92,9 +126,23 @@ class HistoryStream {
   Spool<Step> steps_;  // [scans x memories]
 };
 
-/// Sums of readings of the protocols that the tables were trained on, and of the protocol that was left out.
+/// Limits the answers of each class [classes] to the pressures of the scans that are not of `left_out`.
+void setTrainedPressures(const std::vector<HistoryStream>& streams, std::size_t left_out,
+                         std::vector<StaticAnswer>& answers);
+
+/// Sums of readings of the protocols that the tables were trained on, and of each part of the protocol that
+/// was left out.
 struct LeftOutSums {
-  HistorySums trained, left_out;
+  explicit LeftOutSums(std::size_t features) : trained(features) {}
+
+  HistorySums trained;
+  std::vector<HistorySums> left_out;  ///< [parts], see dataset::Protocols
+
+  /// The sums of the part, which is made if it is not there.
+  HistorySums& part(std::size_t number);
+  void finish();
+  /// Both must be finished.
+  void merge(const LeftOutSums& other);
 };
 
 /// Adds the readings of one taxel in one recording, in means over half a second. `answers` [classes] were

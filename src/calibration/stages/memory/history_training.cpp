@@ -1,12 +1,18 @@
 #include "calibration/stages/memory/history_training.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <optional>
+#include <set>
 
 #include "calibration/stages/deviation/held_out_scoring.h"
 #include "calibration/stages/memory/history_folds.h"
 #include "dataset/protocols.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "settings/number_text.h"
+#include "statistics/bootstrap.h"
 
 namespace fsr::calibration {
 
@@ -23,6 +29,21 @@ void refuse(std::size_t protocols, const HistoryChoice& choice, Calibration& cal
   calibration.scores.history.choice = "History: none, since " + reason + ".";
 }
 
+// The squared errors of one part of a protocol that was left out, by HistoryFamily and at last with the
+// correction c alone [Pa^2], summed over its readings.
+struct PartErrors {
+  std::size_t protocol = 0;
+  std::size_t cycles = 0;  // number of the cycles that the part is of
+  std::array<double, 5> square = {};
+};
+constexpr std::size_t kCorrected = 4;
+
+// By how much one model is better than another, as a share of the other's squared errors, with its interval.
+struct Gain {
+  double share = 0;
+  double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
+};
+
 // The choice of a family, by its errors on protocols that were left out.
 class FamilyChoice {
  public:
@@ -37,15 +58,21 @@ class FamilyChoice {
   /// [protocols], trained without the protocol.
   std::vector<Eigen::VectorXd> coefficients(HistoryFamily family) const;
   const HistoryScore& score() const { return score_; }
+  double rmse(HistoryFamily family) const { return std::sqrt(squareOf(std::size_t(family)) / samples_); }
 
  private:
   void scoreFamilies(const HistoryGrid& grid, const std::vector<std::string>& names,
                      const std::vector<LeftOutSums>& all);
-  double squareOf(HistoryFamily family) const;
-  double correctedSquare() const;
+  double squareOf(std::size_t model) const;
+  Gain gain(std::size_t model, std::size_t other, std::optional<std::size_t> protocol = {}) const;
   bool nowhereWorse(HistoryFamily family) const;
+  bool better(HistoryFamily family) const;
+  HistoryFamily best() const;
+  std::string gainText(HistoryFamily family) const;
 
   std::vector<std::vector<Eigen::VectorXd>> coefficients_;  // [protocols][families]
+  std::vector<PartErrors> parts_;
+  double samples_ = 0;
   HistoryScore score_;
 };
 
@@ -56,13 +83,25 @@ void FamilyChoice::scoreFamilies(const HistoryGrid& grid, const std::vector<std:
     coefficients_.emplace_back(4, Eigen::VectorXd::Zero(Eigen::Index(grid.features())));
     for (const HistoryFamily family : kFamilies)
       coefficients_.back()[std::size_t(family)] = fitHistory(family, grid, sums.trained);
+    std::vector<Eigen::VectorXd> models = coefficients_.back();
+    models.push_back(fitCorrection(grid, sums.trained));
+    std::array<double, 5> square = {};
+    double samples = 0;
+    for (std::size_t part = 0; part < sums.left_out.size(); ++part) {
+      const HistorySums& own = sums.left_out[part];
+      if (own.samples() == 0) continue;
+      parts_.push_back({g, part / 2, {}});
+      for (std::size_t m = 0; m < models.size(); ++m)
+        square[m] += parts_.back().square[m] = own.samples() * own.meanSquare(models[m]);
+      samples += own.samples();
+    }
     // A surface that was recorded with this protocol only has no answer without it.
-    if (sums.left_out.samples() == 0) continue;
+    if (samples == 0) continue;
+    samples_ += samples;
     HistoryScore::Protocol score;
     score.name = names[g];
-    for (std::size_t f = 0; f < score.rmse.size(); ++f)
-      score.rmse[f] = std::sqrt(sums.left_out.meanSquare(coefficients_.back()[f]));
-    score.corrected_rmse = std::sqrt(sums.left_out.meanSquare(fitCorrection(grid, sums.trained)));
+    for (std::size_t f = 0; f < score.rmse.size(); ++f) score.rmse[f] = std::sqrt(square[f] / samples);
+    score.corrected_rmse = std::sqrt(square[kCorrected] / samples);
     score_.protocols.push_back(score);
   }
 }
@@ -73,40 +112,82 @@ std::vector<Eigen::VectorXd> FamilyChoice::coefficients(HistoryFamily family) co
   return own;
 }
 
-// Sum over the protocols, each with the same weight [Pa^2].
-double FamilyChoice::squareOf(HistoryFamily family) const {
+// Over the readings of all protocols [Pa^2].
+double FamilyChoice::squareOf(std::size_t model) const {
   double sum = 0;
-  for (const HistoryScore::Protocol& protocol : score_.protocols) {
-    const double rmse = protocol.rmse[std::size_t(family)];
-    sum += rmse * rmse;
-  }
+  for (const PartErrors& part : parts_) sum += part.square[model];
   return sum;
 }
 
-double FamilyChoice::correctedSquare() const {
-  double sum = 0;
-  for (const HistoryScore::Protocol& protocol : score_.protocols)
-    sum += protocol.corrected_rmse * protocol.corrected_rmse;
-  return sum;
+// On one protocol, or on all. Readings of one cycle are not independent, so cycles are drawn, and where they
+// are too few for an interval, their loading and unloading. Where these are too few, the interval is endless.
+Gain FamilyChoice::gain(std::size_t model, std::size_t other, std::optional<std::size_t> protocol) const {
+  std::vector<std::array<double, 2>> squares;
+  statistics::BootstrapProblem problem{{{"cycle", {}}, {"half a cycle", {}}}, {}};
+  for (const PartErrors& part : parts_) {
+    if (protocol && part.protocol != *protocol) continue;
+    problem.levels[0].unit.push_back(part.protocol * dataset::Protocols::kMostCycles + part.cycles);
+    problem.levels[1].unit.push_back(squares.size());
+    squares.push_back({part.square[model], part.square[other]});
+  }
+  problem.statistic = [&](const std::vector<std::size_t>& drawn) {
+    double own = 0, others = 0;
+    for (const std::size_t k : drawn) own += squares[k][0], others += squares[k][1];
+    return 1 - own / others;
+  };
+  Gain result;
+  const auto nothing = [](const auto& square) { return square[1] == 0; };
+  if (squares.empty() || std::all_of(squares.begin(), squares.end(), nothing)) return result;
+  const statistics::BootstrapResult interval = statistics::bootstrap(problem);
+  result.share = interval.estimate;
+  if (interval.method != statistics::IntervalMethod::kNone)
+    result.low = interval.low, result.high = interval.high;
+  return result;
 }
 
 bool FamilyChoice::nowhereWorse(HistoryFamily family) const {
-  return std::all_of(score_.protocols.begin(), score_.protocols.end(), [&](const auto& protocol) {
-    return protocol.rmse[std::size_t(family)] <= kWorse * protocol.rmse[0];
-  });
+  std::set<std::size_t> protocols;
+  for (const PartErrors& part : parts_) protocols.insert(part.protocol);
+  return std::all_of(protocols.begin(), protocols.end(),
+                     [&](std::size_t protocol) { return gain(std::size_t(family), 0, protocol).high >= 0; });
 }
 
-// A model must be better by kWins both than the static answer and than the correction c without any memory:
-// what c alone mends is no memory. Both families are taken only if one of them is better by itself: plays
-// and memories that are of use only together, with opposite signs, are a filter of noise.
-HistoryFamily FamilyChoice::choose(const HistoryChoice& choice) {
-  const double allowed = kWins * kWins * std::min(squareOf(HistoryFamily::kNone), correctedSquare());
-  const auto better = [&](HistoryFamily family) {
-    const bool part =
-        squareOf(HistoryFamily::kPlays) <= allowed || squareOf(HistoryFamily::kMemories) <= allowed;
-    return squareOf(family) <= allowed && (family != HistoryFamily::kBoth || part);
+// By kWins and beyond chance than the static answer, and than the correction c without any memory: what c
+// alone mends is no memory. Both families only if one of them is better by itself: plays and memories that
+// are of use only together, with opposite signs, are a filter of noise.
+bool FamilyChoice::better(HistoryFamily family) const {
+  const std::size_t none = squareOf(kCorrected) < squareOf(0) ? kCorrected : 0;
+  const double allowed = kWins * kWins * squareOf(none);
+  const auto wins = [&](HistoryFamily own) { return squareOf(std::size_t(own)) <= allowed; };
+  const bool part = wins(HistoryFamily::kPlays) || wins(HistoryFamily::kMemories);
+  return wins(family) && (family != HistoryFamily::kBoth || part) && gain(std::size_t(family), none).low > 0;
+}
+
+// Both families are preferred to one of them only beyond chance.
+HistoryFamily FamilyChoice::best() const {
+  HistoryFamily best = HistoryFamily::kNone;
+  for (const HistoryFamily family : kFamilies) {
+    const auto f = std::size_t(family), b = std::size_t(best);
+    if (squareOf(f) >= squareOf(b) || !better(family) || !nowhereWorse(family)) continue;
+    const bool beyond_chance = best == HistoryFamily::kNone || gain(f, b).low > 0;
+    if (family != HistoryFamily::kBoth || beyond_chance) best = family;
+  }
+  return best;
+}
+
+// In RMSE.
+std::string FamilyChoice::gainText(HistoryFamily family) const {
+  const Gain own = gain(std::size_t(family), 0);
+  const auto percent = [](double share) {
+    return settings::fixedText(100 * (1 - std::sqrt(std::max(1 - share, 0.0))), 0);
   };
-  const auto wins = [&](HistoryFamily family) { return nowhereWorse(family) && better(family); };
+  std::string text = "the error falls by " + percent(own.share) + " %";
+  if (std::isfinite(own.low)) text += " (95 %: " + percent(own.low) + " to " + percent(own.high) + " %)";
+  return text + " on protocols that were left out";
+}
+
+HistoryFamily FamilyChoice::choose(const HistoryChoice& choice) {
+  const auto wins = [&](HistoryFamily family) { return better(family) && nowhereWorse(family); };
   const auto told = [&](HistoryFamily family, const std::string& why) {
     score_.choice = "History: " + historyName(family) + ", " + why + ".";
     return family;
@@ -118,17 +199,16 @@ HistoryFamily FamilyChoice::choose(const HistoryChoice& choice) {
                     (good ? "" : ", although it does not win on protocols that were left out"));
   }
   if (choice.family != HistoryFamily::kNone && wins(choice.family))
-    return told(choice.family, "as proposed; it wins on protocols that were left out");
-  HistoryFamily best = HistoryFamily::kNone;
-  for (const HistoryFamily family : kFamilies) {
-    if (wins(family) && squareOf(family) < squareOf(best)) best = family;
-  }
-  if (best != HistoryFamily::kNone) return told(best, "the best on protocols that were left out");
-  const bool none_wins = std::none_of(std::begin(kFamilies), std::end(kFamilies), better);
-  return told(best, none_wins
-                        ? "since no model of memory is better by 2 % on protocols that were left out"
-                        : "since every model of memory is worse by more than 1 % on a protocol that was "
-                          "left out");
+    return told(choice.family, "as proposed; " + gainText(choice.family));
+  const HistoryFamily taken = best();
+  if (taken != HistoryFamily::kNone) return told(taken, gainText(taken));
+  const bool none_wins =
+      std::none_of(std::begin(kFamilies), std::end(kFamilies), [&](auto family) { return better(family); });
+  return told(taken, none_wins
+                         ? "since no model of memory is better by 2 % and beyond chance on protocols that "
+                           "were left out"
+                         : "since every model of memory is worse beyond chance on a protocol that was left "
+                           "out");
 }
 
 }  // namespace
@@ -147,6 +227,7 @@ HistoryVerdict chooseHistory(const HistoryChoice& choice, const HistoryGrid& gri
   verdict.family = families.choose(choice);
   verdict.score = families.score();
   verdict.coefficients = families.coefficients(verdict.family);
+  verdict.rmse = families.rmse(verdict.family);
   return verdict;
 }
 
@@ -171,9 +252,12 @@ void trainHistory(const HistoryProblem& problem, const CalibrationOptions& optio
   }
   calibration.scores.history = verdict.score;
   if (verdict.family == HistoryFamily::kNone) return;
+  const HistorySums whole = folds.whole();
+  const std::vector<double> spreads = memorySpreads(folds.grid(), whole);
   calibration.history =
-      historyModel(verdict.family, folds.grid(), fitHistory(verdict.family, folds.grid(), folds.whole()));
-  const HistoryErrors errors = folds.errors(calibration.history, verdict.coefficients);
+      historyModel(verdict.family, folds.grid(), fitHistory(verdict.family, folds.grid(), whole), spreads);
+  const HistoryErrors errors =
+      folds.errors(calibration.history, verdict.coefficients, spreads, verdict.rmse / 2);
   errors.setDeviation(calibration.history);
   calibration.scores.history.parts = errors.parts();
 }

@@ -41,6 +41,7 @@ struct HistoryVerdict {
   HistoryFamily family = HistoryFamily::kNone;
   HistoryScore score;                         ///< its choice and protocols
   std::vector<Eigen::VectorXd> coefficients;  ///< [protocols] of the family, trained without the protocol
+  double rmse = 0;                            ///< of the family on protocols that were left out [Pa]
 };
 
 /// The choice of trainHistory(). `names` and `sums` have one entry for each protocol that was left out.

@@ -60,7 +60,7 @@ class TemperatureFit {
         lags_(grid.lags.size()),
         groups_(groups.names.size()),
         highest_(groups.highest),
-        operators_(operatorsOf(historyGrid(groups.highest, groups.longest_hold))),
+        operators_(operatorsOf(historyGrid(groups.lowest, groups.highest, groups.longest_hold))),
         base_(kKnots + 1 + Index(operators_.size())) {
     for (std::size_t r = 0; r < problem.recordings.size(); ++r) {
       chooseScans(r);
@@ -129,7 +129,7 @@ void TemperatureFit::readTemperatures(std::size_t r, const TemperatureGrid& grid
 void TemperatureFit::driveOperators(std::size_t r) {
   const dataset::Recording& recording = problem_.recordings[r];
   const std::size_t n = operators_.size();
-  std::vector<double> memory, state(n);
+  std::vector<double> memory, state(n), open(n);
   memory.reserve(chosen_[r].size() * n);
   auto chosen = chosen_[r].begin();
   std::vector<rheology::ExponentialMemory::Step> steps(operators_.memories());
@@ -137,9 +137,9 @@ void TemperatureFit::driveOperators(std::size_t r) {
     const double pressure = recording.pressure[i];
     const double duration = i == 0 ? 0 : recording.time[i] - recording.time[i - 1];
     const bool starts = i == 0 || recording.condition[i] != recording.condition[i - 1] || duration < 0 ||
-                        duration > HistoryState::kLongestGap;
+                        duration > kLongestGap;
     if (starts) {
-      operators_.start(pressure, state.data());
+      operators_.start(pressure, state.data(), open.data());
     } else {
       operators_.stepsOver(duration, steps.data());
       operators_.advance(recording.pressure[i - 1], pressure, steps.data(), state.data());
@@ -312,6 +312,7 @@ dataset::Protocols eachRecording(const std::vector<dataset::Recording>& recordin
                                  const dataset::Protocols& protocols) {
   dataset::Protocols groups;
   groups.longest_hold = protocols.longest_hold;
+  groups.lowest = protocols.lowest;
   groups.highest = protocols.highest;
   for (std::size_t r = 0; r < recordings.size(); ++r) {
     groups.names.push_back("recording " +
