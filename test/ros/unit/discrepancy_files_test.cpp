@@ -1,7 +1,6 @@
 #include "ros/tools/discrepancy_files.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -14,6 +13,8 @@
 #include "ros/tools/show_ledger.h"
 #include "ros/tools/tool_options.h"
 #include "support/example_discrepancy.h"
+#include "support/folder_test.h"
+#include "support/holds.h"
 #include "support/source_dir.h"
 
 namespace fsr_ros {
@@ -21,17 +22,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class DiscrepancyFiles : public testing::Test {
+class DiscrepancyFiles : public test_support::FolderTest {
  protected:
   void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) /
-              ("discrepancy_" + std::to_string(::getpid()) +
-               std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-    fs::remove_all(folder_);
     report_.base = report_.added =
         fsr::simulation::readSimulationFile(test_support::sourceDir() + "/config/simulation/core.yaml");
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
   std::string text(const std::string& name) const {
     std::ifstream file(folder_ / name);
@@ -39,15 +35,11 @@ class DiscrepancyFiles : public testing::Test {
   }
   /// Draws the report; returns the error, or "".
   std::string draw() const {
-    try {
+    return test_support::refusal([&] {
       runPython(test_support::sourceDir() + "/scripts/figures/discrepancy.py", {folder_.string()});
-    } catch (const fsr::settings::InputError& error) {
-      return error.what();
-    }
-    return "";
+    });
   }
 
-  fs::path folder_;
   fsr::discrepancy::DiscrepancyReport report_ = test_support::exampleDiscrepancy();
 };
 
@@ -66,12 +58,8 @@ TEST_F(DiscrepancyFiles, AreAllThereAndReadBack) {
 TEST_F(DiscrepancyFiles, RefuseAVerdictThatWasEditedSince) {
   writeDiscrepancy(report_, outputFolder(folder_.string()));
   std::ofstream(folder_ / "verdict.yaml", std::ios::app) << "# 0.07 looks better\n";
-  try {
-    readPredictionBeside((folder_ / "verdict.yaml").string());
-    FAIL() << "not refused";
-  } catch (const fsr::settings::InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("edited"), std::string::npos) << error.what();
-  }
+  EXPECT_TRUE(test_support::holds(
+      test_support::refusal([&] { readPredictionBeside((folder_ / "verdict.yaml").string()); }), {"edited"}));
 }
 
 TEST_F(DiscrepancyFiles, BecomeAReportThatNeedsNoNetwork) {
@@ -80,8 +68,8 @@ TEST_F(DiscrepancyFiles, BecomeAReportThatNeedsNoNetwork) {
   const std::string html = text("report.html");
   for (const char* part :
        {"Best explanation among 3 effects tested", "How sure", "Not excluded: hysteresis",
-        "The gain changes from cycle to cycle by 1.2 %", "crosstalk (uneven load)",
-        "Run five cycles", "3.10 %", "19.2 kPa", "floor", "data:image/png;base64", "3 times by now"})
+        "The gain changes from cycle to cycle by 1.2 %", "crosstalk (uneven load)", "Run five cycles",
+        "3.10 %", "19.2 kPa", "floor", "data:image/png;base64", "3 times by now"})
     EXPECT_NE(html.find(part), std::string::npos) << part;
   for (const char* part : {"http://", "https://", "<script", "src=\"/", "file://"})
     EXPECT_EQ(html.find(part), std::string::npos) << part;
