@@ -1,4 +1,4 @@
-// Writes the bags of a blind case, a file with what a user would know about them, and the sealed key.
+// Writes the bags of a blind case and the sealed key.
 
 #include <filesystem>
 #include <iostream>
@@ -11,7 +11,6 @@
 #include "ros/bags/bag_writer.h"
 #include "settings/command_line.h"
 #include "settings/replace_file.h"
-#include "settings/sha256.h"
 
 namespace {
 
@@ -108,8 +107,7 @@ void list() {
 
 void write(const blind::BlindCase& made, const std::string& output, const std::string& key_file) {
   std::filesystem::create_directories(output);
-  const std::string key = blind::keyText(made);
-  fsr::settings::replaceFile(key_file, key);
+  fsr::settings::replaceFile(key_file, blind::keyText(made));
   fsr_ros::BagOptions options;
   options.ambient_pressure = blind::kAmbientPressure;
   options.session.session_id = "blind";
@@ -119,8 +117,6 @@ void write(const blind::BlindCase& made, const std::string& output, const std::s
   for (const fsr::dataset::Recording& recording : made.recordings) {
     fsr_ros::writeBag(output + "/" + recording.name, recording, options);
   }
-  const std::string hash = fsr::settings::sha256(key.data(), key.size());
-  fsr::settings::replaceFile(output + "/case.yaml", blind::publicText(made, hash));
 }
 
 }  // namespace

@@ -2,78 +2,25 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numeric>
 
+#include "blind/hat_fit.h"
 #include "blind/small_case.h"
 #include "fsr_pressure_map/settings/input_error.h"
 
 namespace blind {
 namespace {
 
-// An independent static fit for the tests: least squares with hat functions every 20 kPa, for each taxel and
-// surface, on the pressure in the Recordings.
-class HatFit {
- public:
-  explicit HatFit(const BlindCase& made) : made_(made) {
-    for (const fsr::dataset::Recording& recording : made.recordings) {
-      pressure_.insert(pressure_.end(), recording.pressure.begin(), recording.pressure.end());
-    }
-    lowest_ = *std::min_element(pressure_.begin(), pressure_.end());
-    knots_ =
-        static_cast<Eigen::Index>((*std::max_element(pressure_.begin(), pressure_.end()) - lowest_) / kStep) +
-        2;
+// By the pressure in the recordings.
+HatFit hatFit(const BlindCase& made) {
+  Trace pressure;
+  for (const fsr::dataset::Recording& recording : made.recordings) {
+    pressure.insert(pressure.end(), recording.pressure.begin(), recording.pressure.end());
   }
-
-  Trace residual(const Trace& reading) const {
-    Trace residual = reading;
-    for (std::size_t surface = 0; surface < made_.campaign.surfaces.size(); ++surface) {
-      Eigen::MatrixXd normal = 1e-9 * Eigen::MatrixXd::Identity(knots_, knots_);
-      Eigen::VectorXd right = Eigen::VectorXd::Zero(knots_);
-      eachScan(surface, [&](std::size_t scan, Eigen::Index knot, double share) {
-        const double low = 1 - share;
-        normal(knot, knot) += low * low;
-        normal(knot, knot + 1) += low * share;
-        normal(knot + 1, knot) += low * share;
-        normal(knot + 1, knot + 1) += share * share;
-        right(knot) += low * reading[scan];
-        right(knot + 1) += share * reading[scan];
-      });
-      const Eigen::VectorXd curve = normal.ldlt().solve(right);
-      eachScan(surface, [&](std::size_t scan, Eigen::Index knot, double share) {
-        residual[scan] -= (1 - share) * curve(knot) + share * curve(knot + 1);
-      });
-    }
-    return residual;
-  }
-  const std::vector<double>& pressure() const { return pressure_; }
-
- private:
-  static constexpr double kStep = 20e3;  // [Pa]
-  template <typename Use>
-  void eachScan(std::size_t surface, Use use) const {
-    for (const Visit& visit : made_.campaign.visits) {
-      if (visit.surface != surface) continue;
-      for (std::size_t scan = visit.first; scan < visit.last; ++scan) {
-        const double place = (pressure_[scan] - lowest_) / kStep;
-        const auto knot = static_cast<Eigen::Index>(place);
-        use(scan, knot, place - static_cast<double>(knot));
-      }
-    }
-  }
-  const BlindCase& made_;
-  std::vector<double> pressure_;
-  double lowest_ = 0;
-  Eigen::Index knots_ = 0;
-};
-
-double meanSquare(const Trace& trace) {
-  double squares = 0;
-  for (const double value : trace) squares += value * value;
-  return squares / static_cast<double>(trace.size());
+  return {made.campaign, pressure};
 }
 
 // The recorded reading of a taxel [share of full scale].
@@ -85,11 +32,6 @@ Trace measured(const BlindCase& made, std::size_t taxel) {
     }
   }
   return readings;
-}
-
-Trace minus(Trace a, const Trace& b) {
-  for (std::size_t i = 0; i < a.size(); ++i) a[i] -= b[i];
-  return a;
 }
 
 // --- size of the effect ---------------------------------------------------------------------------
@@ -110,7 +52,7 @@ TEST_P(SizeOf, WhatIsHiddenIsTheOneClaimed) {
   CaseSpec spec = smallCase(GetParam().id, GetParam().form, GetParam().snr);
   spec.protocol = protocolFor(findForm(GetParam().id, GetParam().form));
   const BlindCase made = makeCase(spec);
-  const HatFit fit(made);
+  const HatFit fit = hatFit(made);
   double left = 0, noise = 0;
   for (std::size_t taxel = 0; taxel < made.campaign.taxels(); ++taxel) {
     left += meanSquare(fit.residual(made.clean[taxel])) - meanSquare(fit.residual(made.base[taxel]));
@@ -146,7 +88,7 @@ void toShares(std::map<std::size_t, double>& squares, std::map<std::size_t, doub
 }
 
 Shares sharesOf(const BlindCase& made, bool is_static) {
-  const HatFit fit(made);
+  const HatFit fit = hatFit(made);
   Shares shares, numbers;
   for (std::size_t taxel = 0; taxel < made.campaign.taxels(); ++taxel) {
     const Trace difference = minus(made.clean[taxel], made.base[taxel]);
@@ -256,10 +198,6 @@ TEST(BlindForms, AreConfinedNowhereWhereThatIsNotWanted) {
   }
 }
 
-TEST(BlindForms, AreThreeOrMoreOfEveryEffect) {
-  for (const std::string& id : hiddenIds()) EXPECT_GE(formsOf(id).size(), 3u) << id;
-}
-
 // --- nothing hidden -------------------------------------------------------------------------------
 
 // Von Neumann's ratio of block means: 2 where the blocks are independent, near 0 where a slow change connects
@@ -276,7 +214,7 @@ double vonNeumann(const std::vector<double>& means) {
 
 // Mean over the taxels of this ratio, for the mean residual of each cycle after a static fit.
 double slowness(const BlindCase& made) {
-  const HatFit fit(made);
+  const HatFit fit = hatFit(made);
   double ratio = 0;
   for (std::size_t taxel = 0; taxel < made.campaign.taxels(); ++taxel) {
     const Trace residual = fit.residual(measured(made, taxel));

@@ -21,6 +21,15 @@ double rounded(double value, int digits = 5) {
   return std::round(value * scale) / scale;
 }
 
+template <typename Value>
+void put(YAML::Emitter& out, const char* key, const Value& value) {
+  out << YAML::Key << key << YAML::Value << value;
+}
+
+void put(YAML::Emitter& out, const char* key, double value) {
+  out << YAML::Key << key << YAML::Value << rounded(value);
+}
+
 template <typename Values>
 void flowList(YAML::Emitter& out, const Values& values) {
   out << YAML::Flow << YAML::BeginSeq;
@@ -59,29 +68,13 @@ void placeOf(YAML::Emitter& out, const HiddenTruth& truth, const Campaign& campa
   out << YAML::EndMap;
 }
 
-void effectOf(YAML::Emitter& out, const HiddenTruth& truth, const Campaign& campaign) {
-  out << YAML::BeginMap;
-  out << YAML::Key << "id" << YAML::Value << truth.id;
-  out << YAML::Key << "form" << YAML::Value << truth.form;
-  out << YAML::Key << "strength" << YAML::Value << truth.strength;
-  out << YAML::Key << "left_after_static_fit" << YAML::Value << rounded(truth.left);
-  out << YAML::Key << "static_fit" << YAML::Value
-      << (truth.left_after == LeftAfter::kCurveEach
-              ? "one monotone curve for each taxel and surface"
-              : "one monotone curve for each taxel, with gain and preload for each surface");
-  out << YAML::Key << "snr" << YAML::Value << rounded(truth.snr);
-  if (truth.has_state) out << YAML::Key << "carried_over" << YAML::Value << truth.carried_over;
-  out << YAML::Key << "depends_on" << YAML::Value;
-  flowList(out, truth.depends_on);
-  out << YAML::Key << "where" << YAML::Value;
-  placeOf(out, truth, campaign);
-  out << YAML::Key << "parameters" << YAML::Value << YAML::BeginSeq;
-  for (const HiddenParameter& parameter : truth.parameters) {
-    out << YAML::Flow << YAML::BeginMap << YAML::Key << "name" << YAML::Value << parameter.name << YAML::Key
-        << "value" << YAML::Value << rounded(parameter.value) << YAML::Key << "unit" << YAML::Value
-        << parameter.unit << YAML::EndMap;
+void askedEffects(YAML::Emitter& out, const CaseSpec& spec) {
+  std::vector<std::string> asked;
+  for (const EffectSpec& effect : spec.effects) {
+    asked.push_back(effect.id + (effect.form.empty() ? "" : ":" + effect.form));
   }
-  out << YAML::EndSeq << YAML::EndMap;
+  out << YAML::Key << "effects" << YAML::Value;
+  flowList(out, asked);
 }
 
 void specOf(YAML::Emitter& out, const CaseSpec& spec) {
@@ -96,12 +89,7 @@ void specOf(YAML::Emitter& out, const CaseSpec& spec) {
   out << YAML::Key << "cycles" << YAML::Value << spec.size.cycles;
   out << YAML::Key << "thermometer" << YAML::Value << spec.thermometer;
   out << YAML::Key << "local" << YAML::Value << spec.local;
-  out << YAML::Key << "effects" << YAML::Value;
-  std::vector<std::string> asked;
-  for (const EffectSpec& effect : spec.effects) {
-    asked.push_back(effect.id + (effect.form.empty() ? "" : ":" + effect.form));
-  }
-  flowList(out, asked);
+  askedEffects(out, spec);
   out << YAML::EndMap;
 }
 
@@ -109,15 +97,6 @@ void specOf(YAML::Emitter& out, const CaseSpec& spec) {
 const char* truthText(const BlindCase& blind_case) {
   if (blind_case.hidden.empty()) return "none";
   return blind_case.hidden.front().foreign ? "unknown" : "named";
-}
-
-template <typename Value>
-void put(YAML::Emitter& out, const char* key, const Value& value) {
-  out << YAML::Key << key << YAML::Value << value;
-}
-
-void put(YAML::Emitter& out, const char* key, double value) {
-  out << YAML::Key << key << YAML::Value << rounded(value);
 }
 
 // The name that the package's simulation has for a parameter; empty where the forms have nothing in common
@@ -133,12 +112,13 @@ std::string libraryParameter(const std::string& id, const std::string& parameter
   return found == names.end() ? "" : found->second;
 }
 
-void hiddenEffect(YAML::Emitter& out, const HiddenTruth& truth, const Campaign& campaign) {
+// `digits` of the strength.
+void hiddenEffect(YAML::Emitter& out, const HiddenTruth& truth, const Campaign& campaign, int digits) {
   out << YAML::BeginMap;
   put(out, "id", truth.id);
   put(out, "form", truth.form);
   put(out, "set", std::string(1, truth.set));
-  put(out, "strength", truth.strength);
+  out << YAML::Key << "strength" << YAML::Value << rounded(truth.strength, digits);
   put(out, "left_after_static_fit", truth.left);
   put(out, "static_fit",
       truth.left_after == LeftAfter::kCurveEach ? "curve_of_taxel_and_surface" : "curve_of_taxel");
@@ -282,13 +262,15 @@ void namedSpecOf(YAML::Emitter& out, const CaseSpec& spec) {
     out << YAML::Null;
   }
   put(out, "local", spec.local);
-  out << YAML::Key << "effects" << YAML::Value;
-  std::vector<std::string> asked;
-  for (const EffectSpec& effect : spec.effects) {
-    asked.push_back(effect.id + (effect.form.empty() ? "" : ":" + effect.form));
-  }
-  flowList(out, asked);
+  askedEffects(out, spec);
   out << YAML::EndMap;
+}
+
+void conditionsOf(YAML::Emitter& out, const Campaign& campaign) {
+  std::vector<std::string> names;
+  for (const fsr::matrix::Surface& surface : campaign.surfaces) names.push_back(surface.name);
+  out << YAML::Key << "conditions" << YAML::Value;
+  flowList(out, names);
 }
 
 // Schema 2; README.md in this folder explains the fields.
@@ -304,14 +286,11 @@ std::string namedKeyText(const BlindCase& made) {
   put(out, "set", sealed ? "B" : "A");
   put(out, "protocol_class", made.plan->protocol_class);
   out << YAML::Key << "effects" << YAML::Value << YAML::BeginSeq;
-  for (const HiddenTruth& truth : made.hidden) hiddenEffect(out, truth, made.campaign);
+  for (const HiddenTruth& truth : made.hidden) hiddenEffect(out, truth, made.campaign, 5);
   out << YAML::EndSeq << YAML::Key << "identifiable" << YAML::Value;
   identifiability(out, made.identifiable);
   put(out, "taxels", made.campaign.taxels());
-  out << YAML::Key << "conditions" << YAML::Value;
-  std::vector<std::string> names;
-  for (const fsr::matrix::Surface& surface : made.campaign.surfaces) names.push_back(surface.name);
-  flowList(out, names);
+  conditionsOf(out, made.campaign);
   out << YAML::Key << "sheet" << YAML::Value;
   sheetOf(out, made);
   out << YAML::Key << "noise" << YAML::Value;
@@ -334,13 +313,10 @@ std::string keyText(const BlindCase& blind_case) {
   out << YAML::Key << "key" << YAML::Value << kFormat;
   out << YAML::Key << "truth" << YAML::Value << truthText(blind_case);
   out << YAML::Key << "effects" << YAML::Value << YAML::BeginSeq;
-  for (const HiddenTruth& truth : blind_case.hidden) effectOf(out, truth, blind_case.campaign);
+  for (const HiddenTruth& truth : blind_case.hidden) hiddenEffect(out, truth, blind_case.campaign, kDigits);
   out << YAML::EndSeq;
   out << YAML::Key << "taxels" << YAML::Value << blind_case.campaign.taxels();
-  out << YAML::Key << "conditions" << YAML::Value;
-  std::vector<std::string> names;
-  for (const fsr::matrix::Surface& surface : blind_case.campaign.surfaces) names.push_back(surface.name);
-  flowList(out, names);
+  conditionsOf(out, blind_case.campaign);
   out << YAML::Key << "noise" << YAML::Value << YAML::BeginMap << YAML::Key << "rms" << YAML::Value
       << blind_case.noise << YAML::Key << "through_the_reference" << YAML::Value
       << rounded(blind_case.reference_noise) << YAML::Key << "colour" << YAML::Value
@@ -351,29 +327,6 @@ std::string keyText(const BlindCase& blind_case) {
   out << YAML::Key << "spec" << YAML::Value;
   specOf(out, blind_case.spec);
   out << YAML::EndMap;
-  return std::string(out.c_str()) + "\n";
-}
-
-std::string publicText(const BlindCase& blind_case, const std::string& key_sha256) {
-  const CaseSpec& spec = blind_case.spec;
-  YAML::Emitter out;
-  out.SetDoublePrecision(kDigits);
-  out << YAML::BeginMap;
-  out << YAML::Key << "blind_case" << YAML::Value << kFormat;
-  out << YAML::Key << "key_sha256" << YAML::Value << key_sha256;
-  const std::string& protocol = spec.then.empty() ? spec.protocol : spec.then;
-  out << YAML::Key << "protocol" << YAML::Value << protocol;
-  out << YAML::Key << "description" << YAML::Value << protocolDescription(protocol);
-  out << YAML::Key << "matrix" << YAML::Value << YAML::Flow << YAML::BeginMap << YAML::Key << "rows"
-      << YAML::Value << spec.matrix.rows << YAML::Key << "columns" << YAML::Value << spec.matrix.columns
-      << YAML::Key << "full_scale" << YAML::Value << blind_case.full_scale << YAML::EndMap;
-  out << YAML::Key << "scan_rate" << YAML::Value << 10 << YAML::Comment("[Hz]");
-  out << YAML::Key << "ambient_pressure" << YAML::Value << kAmbientPressure << YAML::Comment("[Pa]");
-  out << YAML::Key << "thermometer" << YAML::Value << spec.thermometer;
-  out << YAML::Key << "mount_labels" << YAML::Value << true;
-  out << YAML::Key << "bags" << YAML::Value << YAML::BeginSeq;
-  for (const fsr::dataset::Recording& recording : blind_case.recordings) out << recording.name;
-  out << YAML::EndSeq << YAML::EndMap;
   return std::string(out.c_str()) + "\n";
 }
 

@@ -10,9 +10,6 @@ namespace blind {
 /// again. README.md in this folder lists its fields.
 std::string keyText(const BlindCase& blind_case);
 
-/// What a user of the rig would know about the bags, and the SHA-256 of the key, as YAML.
-std::string publicText(const BlindCase& blind_case, const std::string& key_sha256);
-
 /// Reads from a key the spec of a campaign with the same sheet and the same hidden effects, strengths and
 /// noise. With `then`, the campaign continues under a recommended experiment. Throws fsr::InputError.
 CaseSpec specFromKey(const std::string& path);

@@ -42,15 +42,6 @@ TEST_F(CaseFiles, TheKeySaysWhatIsHiddenAndWhere) {
   EXPECT_NEAR(key.section("noise").number("rms", {}), made_.noise, 1e-12);
 }
 
-TEST_F(CaseFiles, ThePublicPartTellsNothingOfIt) {
-  const std::string text = publicText(made_, std::string(64, 'a'));
-  for (const std::string& id : hiddenIds()) EXPECT_EQ(text.find(id), std::string::npos) << id;
-  for (const char* word : {"seed", "snr", "strength", "swelling"})
-    EXPECT_EQ(text.find(word), std::string::npos) << word;
-  EXPECT_NE(text.find(std::string(64, 'a')), std::string::npos);
-  EXPECT_NE(text.find("1_flat.bag"), std::string::npos);
-}
-
 TEST_F(CaseFiles, AKeyIsFollowedByTheSameSheetUnderAnotherProtocol) {
   CaseSpec again = specFromKey(path_.string());
   const BlindCase same = makeCase(again);

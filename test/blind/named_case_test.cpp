@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -11,6 +10,7 @@
 #include "blind/blind_case.h"
 #include "blind/case_files.h"
 #include "blind/hand_plan.h"
+#include "blind/hat_fit.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "settings/settings.h"
 
@@ -33,50 +33,6 @@ RigPlan richPlan() {
   plan.room.shape = "swing";
   for (const std::size_t surface : {0u, 1u, 1u, 0u}) addStay(plan, surface, 5, true);
   return plan;
-}
-
-double meanSquare(const Trace& trace) {
-  double squares = 0;
-  for (const double value : trace) squares += value * value;
-  return squares / static_cast<double>(trace.size());
-}
-
-// An independent static fit: for each surface least squares with hat functions every 20 kPa (reduced).
-struct HatCurves {
-  Trace fit(const Trace& reading) const {
-    constexpr Eigen::Index kKnots = 34;
-    Trace fitted(reading.size());
-    for (std::size_t surface = 0; surface < campaign.surfaces.size(); ++surface) {
-      Eigen::MatrixXd normal = 1e-9 * Eigen::MatrixXd::Identity(kKnots, kKnots);
-      Eigen::VectorXd right = Eigen::VectorXd::Zero(kKnots);
-      const auto each = [&](auto use) {
-        for (std::size_t scan = 0; scan < reading.size(); ++scan) {
-          if (campaign.visits[campaign.visit[scan]].surface != surface) continue;
-          const double place = std::max(0.0, campaign.pressure[scan] / 20e3);
-          use(scan, static_cast<Eigen::Index>(place), place - std::floor(place));
-        }
-      };
-      each([&](std::size_t scan, Eigen::Index k, double high) {
-        normal(k, k) += (1 - high) * (1 - high);
-        normal(k + 1, k + 1) += high * high;
-        normal(k, k + 1) += high * (1 - high);
-        normal(k + 1, k) += high * (1 - high);
-        right(k) += (1 - high) * reading[scan];
-        right(k + 1) += high * reading[scan];
-      });
-      const Eigen::VectorXd curve = normal.ldlt().solve(right);
-      each([&](std::size_t scan, Eigen::Index k, double high) {
-        fitted[scan] = (1 - high) * curve(k) + high * curve(k + 1);
-      });
-    }
-    return fitted;
-  }
-  const Campaign& campaign;
-};
-
-Trace minus(Trace a, const Trace& b) {
-  for (std::size_t i = 0; i < a.size(); ++i) a[i] -= b[i];
-  return a;
 }
 
 // --- a name is a case -----------------------------------------------------------------------------
@@ -157,11 +113,11 @@ TEST(NamedCases, HaveTheSnrThatWasAskedFor) {
     CaseSpec spec = handCase("snr", richPlan(), "hysteresis", "bouc_wen", snr);
     spec.judged = false;
     const BlindCase made = makeCase(spec);
-    const HatCurves curves{made.campaign};
+    const HatFit fit(made.campaign, made.campaign.pressure);
     double left = 0, noise = 0;
     for (std::size_t taxel = 0; taxel < made.clean.size(); ++taxel) {
       const Trace change = minus(made.clean[taxel], made.base[taxel]);
-      left += meanSquare(minus(change, curves.fit(change)));
+      left += meanSquare(fit.residual(change));
       double squares = 0, number = 0;
       for (const CaseBag& bag : made.bags) {
         for (std::size_t i = 0; i < bag.sequence.size(); ++i) {
@@ -185,11 +141,11 @@ TEST(NamedCases, HaveTheErrorAtTheMapThatWasAskedFor) {
     spec.judged = false;
     spec.kpa = kpa;
     const BlindCase made = makeCase(spec);
-    const HatCurves curves{made.campaign};
+    const HatFit fit(made.campaign, made.campaign.pressure);
     double squares = 0, number = 0;
     for (std::size_t taxel = 0; taxel < made.clean.size(); ++taxel) {
       const Trace change = minus(made.clean[taxel], made.base[taxel]);
-      const Trace left = minus(change, curves.fit(change));
+      const Trace left = fit.residual(change);
       // The slope from neighbouring scans of a ramp, noise-free.
       for (std::size_t scan = 1; scan + 1 < left.size(); ++scan) {
         const double step = made.campaign.pressure[scan + 1] - made.campaign.pressure[scan - 1];

@@ -47,8 +47,6 @@ struct ProtocolSize {
 ///     hours_apart      6 to 60 fast cycles on the flat surface, five times within eight hours, once in a
 ///                      warmer room
 const std::vector<std::string>& protocolNames();
-/// One sentence for the public description.
-std::string protocolDescription(const std::string& protocol);
 /// Whether the protocol mounts the matrix on one surface more than once.
 bool remounts(const std::string& protocol);
 

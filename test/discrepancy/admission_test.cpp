@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "support/mounted_day.h"
 #include "support/synthetic_recording.h"
 
 namespace fsr::discrepancy {
@@ -33,21 +32,6 @@ TEST(Admission, FindsSoundRecordingsFitForBothUses) {
   EXPECT_EQ(admission.discrepancy, "");
   EXPECT_EQ(admission.coverage.conditions.size(), 2u);
   EXPECT_EQ(admission.recordings.at(1).name, "cylinder_7cm.bag");
-}
-
-TEST(Admission, NamesTheMountsThatDifferFromTheOthersOfTheirSurface) {
-  const Admission admission = inspectRecordings(test_support::recorded({"bench", 2, true}));
-  ASSERT_EQ(admission.mounts.size(), 1u);
-  EXPECT_EQ(admission.mounts[0].find("cylinder_10cm: mount 1 (1_cylinder_10cm.bag) and mount 5 "), 0u);
-  EXPECT_TRUE(inspectRecordings(test_support::recorded({"bench", 2, false})).mounts.empty());
-}
-
-TEST(Admission, SaysWhyTrainingWouldRefuse) {
-  dataset::Recording recording = recorded();
-  recording.pressure.clear();
-  const Admission admission = inspectRecordings({recording});
-  EXPECT_FALSE(admission.fit());
-  EXPECT_NE(admission.training.find("chamber_pressure"), std::string::npos) << admission.training;
 }
 
 TEST(Admission, IsFitForTrainingThoughNotForDiscrepancyWhereCyclesAreFew) {

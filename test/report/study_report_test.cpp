@@ -6,6 +6,7 @@
 #include <limits>
 #include <sstream>
 
+#include "support/holds.h"
 #include "support/squeezed.h"
 #include "support/synthetic_recording.h"
 
@@ -58,17 +59,6 @@ TEST(StudyTables, HaveAsManyCellsInEachRowAsHeadings) {
   }
 }
 
-TEST(StudyTables, DoNotDependOnTheNumberOfThreads) {
-  fsr::study::StudyProblem one = smallProblem(), three = smallProblem();
-  one.plan.threads = 1;
-  three.plan.threads = 3;
-  const fsr::study::StudyResult first = fsr::study::study(one);
-  fsr::study::StudyResult second = fsr::study::study(three);
-  second.provenance.date = first.provenance.date;  // a second may have passed
-  EXPECT_TRUE(fsr::report::studyTables(first) == fsr::report::studyTables(second));
-  EXPECT_TRUE(fsr::report::studyJson(first) == fsr::report::studyJson(second));
-}
-
 TEST(StudyTables, QuoteNamesAndLeaveUnknownNumbersEmpty) {
   const auto tables = fsr::report::studyTables(smallStudy());
   EXPECT_TRUE(contains(tables.at("response.csv"), "\"a \"\"bent\"\", sheet\",7.7,"));
@@ -86,10 +76,8 @@ TEST(StudyTables, HaveEveryMethodOfEverySplit) {
 
 TEST(StudyText, ShowsThePapersNumbersBesideOursAndStatesTheLimits) {
   const std::string text = fsr::report::studyText(smallStudy());
-  EXPECT_TRUE(contains(text, "6.93 +- 0.81")) << text;
-  EXPECT_TRUE(contains(text, "As published, taxels treated as independent")) << text;
-  EXPECT_TRUE(contains(text, "FITTED to the paper's tables")) << text;
-  EXPECT_TRUE(contains(text, "n = 3 taxels")) << text;
+  EXPECT_TRUE(test_support::holds(text, {"6.93 +- 0.81", "As published, taxels treated as independent",
+                                         "FITTED to the paper's tables", "n = 3 taxels"}));
 }
 
 TEST(StudyText, SaysWhyTheMemoryOfTheSheetIsNotAssessable) {
@@ -107,9 +95,8 @@ TEST(StudyText, ShowsTheHistoryBesideTheStaticAnswerAndByProtocol) {
   result.history.choice = "History: plays, the best on protocols that were left out.";
   result.history.protocols = {{"slow", {8e3, 4e3, 7e3, 5e3}, 6e3}};
   const std::string text = test_support::squeezed(fsr::report::studyText(result));
-  EXPECT_TRUE(contains(text, "leave_protocol_out: by protocol\n history ")) << text;
-  EXPECT_TRUE(contains(text, "History: plays, the best")) << text;
-  EXPECT_TRUE(contains(text, "8.00 4.00 7.00 5.00 6.00")) << text;
+  EXPECT_TRUE(test_support::holds(text, {"leave_protocol_out: by protocol\n history ",
+                                         "History: plays, the best", "8.00 4.00 7.00 5.00 6.00"}));
   EXPECT_FALSE(contains(text, "not assessable")) << text;
   EXPECT_TRUE(contains(fsr::report::studyJson(result), "\"correction_alone\": 6000")) << text;
   EXPECT_TRUE(
@@ -131,18 +118,16 @@ TEST(StudyText, ShowsTheErrorOfTheMapAgainstTheErrorOfTheCurvature) {
   step.rmse = 31e3;
   result.curvature_errors = {{"interpolated", "Interpolated", {shorter, right, step}}};
   const std::string text = test_support::squeezed(fsr::report::studyText(result));
-  EXPECT_TRUE(contains(text,
-                       "RMSE [kPa]\n"
-                       " curvature is -5 % right +2 1/m\n"
-                       " interpolated 25.0 20.0 31.0\n"))
-      << text;
-  EXPECT_TRUE(contains(text, " interpolated 75 - -\n")) << text;
+  EXPECT_TRUE(test_support::holds(text, {"RMSE [kPa]\n"
+                                         " curvature is -5 % right +2 1/m\n"
+                                         " interpolated 25.0 20.0 31.0\n",
+                                         " interpolated 75 - -\n"}));
   const auto tables = fsr::report::studyTables(result);
   EXPECT_TRUE(
       contains(tables.at("curvature_errors.csv"), "\"interpolated\",\"Interpolated\",-5,0,3.5,25,8,6,"))
       << tables.at("curvature_errors.csv");
-  EXPECT_TRUE(contains(tables.at("curvature_errors_by_surface.csv"),
-                       "\"interpolated\",\"Interpolated\",0,2,\"cylinder_5cm\",30\n"));
+  EXPECT_TRUE(test_support::holds(tables.at("curvature_errors_by_surface.csv"),
+                                  {"\"interpolated\",\"Interpolated\",0,2,\"cylinder_5cm\",30\n"}));
   const std::string json = fsr::report::studyJson(result);
   EXPECT_TRUE(contains(json, "\"moved_pa\": 8000")) << json;
   result.curvature_errors.clear();

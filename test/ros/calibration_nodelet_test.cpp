@@ -72,10 +72,3 @@ TEST(CalibrationNodelet, EndsAWaitingTareWhenItIsUnloaded) {
 }
 
 }  // namespace
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "calibration_nodelet_test");
-  const ros::NodeHandle keep_alive;
-  return RUN_ALL_TESTS();
-}

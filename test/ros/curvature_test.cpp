@@ -173,10 +173,3 @@ TEST(SessionNode, MarksAKnownKindAndRefusesAnother) {
 }
 
 }  // namespace
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "curvature_test");
-  const ros::NodeHandle keep_alive;
-  return RUN_ALL_TESTS();
-}

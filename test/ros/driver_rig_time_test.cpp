@@ -81,10 +81,3 @@ TEST(DriverInRigTime, StampsInRigTimeAsEvenlyAsTheBoardScans) {
 }
 
 }  // namespace
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "driver_rig_time_test");
-  const ros::NodeHandle keeps_ros_running;
-  return RUN_ALL_TESTS();
-}

@@ -1,4 +1,3 @@
-#include <diagnostic_msgs/DiagnosticArray.h>
 #include <fsr_pressure_map/MatrixFrame.h>
 #include <fsr_pressure_map/MatrixInfo.h>
 #include <gtest/gtest.h>
@@ -9,12 +8,13 @@
 
 #include <cstdio>
 #include <cstdlib>
-#include <map>
 #include <memory>
 #include <string>
 
 #include "ros/driver/driver.h"
 #include "support/board_packets.h"
+#include "support/diagnostics.h"
+#include "support/holds.h"
 #include "support/pty.h"
 #include "support/ros_listener.h"
 
@@ -22,6 +22,7 @@ namespace {
 
 using fsr_pressure_map::MatrixFrame;
 using test_support::await;
+using test_support::Diagnostics;
 using test_support::Listener;
 using Level = diagnostic_msgs::DiagnosticStatus;
 
@@ -62,38 +63,6 @@ class Board {
 
   test_support::Pty pty_;
   std::uint32_t next_ = 1;
-};
-
-// The last status of every part of /diagnostics since the start of the tests.
-class Diagnostics {
- public:
-  Diagnostics() {
-    const auto keep = [this](const diagnostic_msgs::DiagnosticArray::ConstPtr& array) {
-      for (const auto& status : array->status) last_[status.name] = status;
-    };
-    subscriber_ = ros::NodeHandle().subscribe<diagnostic_msgs::DiagnosticArray>("/diagnostics", 1000, keep);
-  }
-
-  // Waits until the message of `name` contains `part` at `level`; returns `part`, or the last message if it
-  // never does.
-  std::string await(const std::string& name, int level, const std::string& part) {
-    const auto says = [&] { return last_[name].level == level && contains(name, part); };
-    return test_support::await(says) ? part : last_[name].message;
-  }
-  // Waits until `driver` has opened its port, with or without bytes.
-  bool awaitOpenPort(const std::string& driver) {
-    const std::string link = driver + ": link";
-    return test_support::await(
-        [&] { return contains(link, "reading") || contains(link, "has sent nothing for"); });
-  }
-
- private:
-  bool contains(const std::string& name, const std::string& part) {
-    return last_[name].message.find(part) != std::string::npos;
-  }
-
-  ros::Subscriber subscriber_;
-  std::map<std::string, diagnostic_msgs::DiagnosticStatus> last_;
 };
 
 Diagnostics& diagnostics() {
@@ -247,10 +216,8 @@ int exitStatus(const std::string& arguments, std::string& output) {
 TEST_F(DriverNode, RefusesABadParameterWithASentenceAndStatusTwo) {
   std::string output;
   EXPECT_EQ(exitStatus("_serial_baud:=-5", output), 2);
-  EXPECT_NE(
-      output.find("parameter /refused/serial_baud is -5, but must be a whole number, 0 to 12000000 baud"),
-      std::string::npos)
-      << output;
+  EXPECT_TRUE(test_support::holds(
+      output, {"parameter /refused/serial_baud is -5, but must be a whole number, 0 to 12000000 baud"}));
 }
 
 TEST_F(DriverNode, RefusesAReplayThatIsNoCapture) {

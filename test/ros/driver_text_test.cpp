@@ -1,4 +1,3 @@
-#include <diagnostic_msgs/DiagnosticArray.h>
 #include <fsr_pressure_map/MatrixFrame.h>
 #include <fsr_pressure_map/MatrixInfo.h>
 #include <gtest/gtest.h>
@@ -7,10 +6,11 @@
 #include <sys/wait.h>
 
 #include <algorithm>
-#include <map>
 #include <memory>
 #include <string>
 
+#include "support/diagnostics.h"
+#include "support/holds.h"
 #include "support/program_output.h"
 #include "support/pty.h"
 #include "support/ros_listener.h"
@@ -20,34 +20,6 @@ namespace {
 using fsr_pressure_map::MatrixFrame;
 using test_support::await;
 using test_support::Listener;
-
-// The last status of each part of the driver.
-class Diagnostics {
- public:
-  Diagnostics() {
-    const auto keep = [this](const diagnostic_msgs::DiagnosticArray::ConstPtr& array) {
-      for (const auto& status : array->status) last_[status.name] = status;
-    };
-    subscriber_ = ros::NodeHandle().subscribe<diagnostic_msgs::DiagnosticArray>("/diagnostics", 1000, keep);
-  }
-
-  bool says(const std::string& name, const std::string& part) {
-    return last_[name].message.find(part) != std::string::npos;
-  }
-  bool awaitValue(const std::string& key, const std::string& value) {
-    return await([&] { return valueOf(key) == value; });
-  }
-  std::string valueOf(const std::string& key) {
-    for (const auto& pair : last_["fsr/driver: scans"].values) {
-      if (pair.key == key) return pair.value;
-    }
-    return "";
-  }
-
- private:
-  ros::Subscriber subscriber_;
-  std::map<std::string, diagnostic_msgs::DiagnosticStatus> last_;
-};
 
 // A board of 2 x 3 taxels at 100 Hz.
 class Sketch {
@@ -68,16 +40,17 @@ class Sketch {
 
 class TextDriver : public testing::Test {
  protected:
-  Diagnostics diagnostics_;
+  test_support::Diagnostics diagnostics_;
   std::string port_ = ros::NodeHandle("~").param<std::string>("port", "");
 
   std::unique_ptr<Sketch> plugIn() {
     EXPECT_TRUE(await([&] { return says("waiting for the board"); }));
     auto sketch = std::make_unique<Sketch>(port_);
-    EXPECT_TRUE(await([&] { return says("reading") || says("has sent nothing"); }));
+    EXPECT_TRUE(diagnostics_.awaitOpenPort("fsr/driver"));
     return sketch;
   }
   bool says(const std::string& part) { return diagnostics_.says("fsr/driver: link", part); }
+  std::string valueOf(const std::string& key) { return diagnostics_.valueOf("fsr/driver: scans", key); }
 };
 
 TEST_F(TextDriver, PublishesTheScansAndReadingsOfASketchAndCountsDamage) {
@@ -108,13 +81,13 @@ TEST_F(TextDriver, PublishesTheScansAndReadingsOfASketchAndCountsDamage) {
   EXPECT_EQ(pressure.messages[14]->header.stamp, raw.messages[14]->header.stamp);
   EXPECT_TRUE(await([&] { return !info.messages.empty() && info.messages.back()->rows == 2; }));
 
-  EXPECT_TRUE(diagnostics_.awaitValue("scans lost", "5"));
+  EXPECT_TRUE(await([&] { return valueOf("scans lost") == "5"; }));
   for (const char* cause : {"dropped: line cut by start or end", "dropped: line too long",
                             "dropped: line not in ASCII", "dropped: line not of whole numbers",
                             "dropped: wrong number of counts", "dropped: count above full scale"}) {
-    EXPECT_EQ(diagnostics_.valueOf(cause), "1") << cause;
+    EXPECT_EQ(valueOf(cause), "1") << cause;
   }
-  EXPECT_EQ(diagnostics_.valueOf("lines without numbers"), "2");
+  EXPECT_EQ(valueOf("lines without numbers"), "2");
 }
 
 TEST_F(TextDriver, SaysHowManyCountsALineShouldHave) {
@@ -158,24 +131,14 @@ std::string refusal(const std::string& arguments) {
 
 TEST(TextDriverParameters, AreRefusedInASentence) {
   const std::string no_rows = refusal("_rows:=0 _columns:=10");
-  EXPECT_NE(no_rows.find("parameter /refused/rows is 0, but must be 1 or more with the protocol text, whose "
-                         "lines do not say the size of the matrix"),
-            std::string::npos)
-      << no_rows;
+  EXPECT_TRUE(test_support::holds(
+      no_rows, {"parameter /refused/rows is 0, but must be 1 or more with the protocol text, whose "
+                "lines do not say the size of the matrix"}));
   const std::string unit = refusal("_rows:=7 _columns:=10 _text_time:=s");
-  EXPECT_NE(unit.find("parameter /refused/text_time is s, but must be one of ms, us"), std::string::npos)
-      << unit;
+  EXPECT_TRUE(test_support::holds(unit, {"parameter /refused/text_time is s, but must be one of ms, us"}));
   const std::string scale = refusal("_rows:=7 _columns:=10 _text_full_scale:=0");
-  EXPECT_NE(scale.find("parameter /refused/text_full_scale is 0, but must be a whole number, 1 to 65535"),
-            std::string::npos)
-      << scale;
+  EXPECT_TRUE(test_support::holds(
+      scale, {"parameter /refused/text_full_scale is 0, but must be a whole number, 1 to 65535"}));
 }
 
 }  // namespace
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "driver_text_test");
-  const ros::NodeHandle keeps_ros_running;
-  return RUN_ALL_TESTS();
-}

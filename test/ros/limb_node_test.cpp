@@ -49,10 +49,3 @@ TEST(Limb, SumsItsSheetsAndReportsASilentOne) {
 }
 
 }  // namespace
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "limb_node_test");
-  const ros::NodeHandle keep_alive;
-  return RUN_ALL_TESTS();
-}

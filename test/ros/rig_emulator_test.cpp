@@ -15,20 +15,11 @@
 #include <set>
 
 #include "support/board_listener.h"
+#include "support/ros_listener.h"
 
 namespace {
 
 using test_support::BoardListener;
-
-constexpr double kLong = 30;  // limit for events that must happen [s]
-
-bool until(const std::function<bool()>& condition) {
-  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(kLong);
-  while (!condition() && ros::WallTime::now() < end) {
-    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.05));
-  }
-  return condition();
-}
 
 std::string port() {
   std::string path;
@@ -77,7 +68,7 @@ class Status {
         "rig_emulator/status", 100, [this](const std_msgs::String::ConstPtr& m) { heard_.insert(m->data); });
   }
   bool becomes(const std::string& status) {
-    return until([&] { return heard_.count(status) > 0; });
+    return test_support::await([&] { return heard_.count(status) > 0; });
   }
 
  private:
@@ -123,7 +114,7 @@ TEST(RigEmulatorNode, PublishesRigTimeDenselyAndInOrder) {
   ros::NodeHandle handle;
   const auto subscriber = handle.subscribe<rosgraph_msgs::Clock>(
       "/clock", 10000, [&](const rosgraph_msgs::Clock::ConstPtr& m) { clock.push_back(m->clock.toSec()); });
-  ASSERT_TRUE(until([&] { return !clock.empty() && clock.back() - clock.front() > 10; }));
+  ASSERT_TRUE(test_support::await([&] { return !clock.empty() && clock.back() - clock.front() > 10; }));
   EXPECT_TRUE(std::is_sorted(clock.begin(), clock.end()));
   double widest = 0;
   for (std::size_t i = 1; i < clock.size(); ++i) widest = std::max(widest, clock[i] - clock[i - 1]);
@@ -184,10 +175,3 @@ TEST(RigEmulatorNode, ExitsWithStatusTwoForInvalidSettings) {
 }
 
 }  // namespace
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "rig_emulator_test");
-  const ros::NodeHandle keep_alive;
-  return RUN_ALL_TESTS();
-}

@@ -10,20 +10,11 @@
 
 #include "simulation/settings_text.h"
 #include "support/board_listener.h"
+#include "support/ros_listener.h"
 
 namespace {
 
 using fsr_pressure_map::Instruction;
-
-constexpr double kLong = 30;  // limit for events that must happen [s]
-
-bool until(const std::function<bool()>& condition) {
-  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(kLong);
-  while (!condition() && ros::WallTime::now() < end) {
-    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.05));
-  }
-  return condition();
-}
 
 /// A very small conductor: it gives instructions and hears what the operator does.
 class RigOperatorNode : public testing::Test {
@@ -32,12 +23,12 @@ class RigOperatorNode : public testing::Test {
     instruction_ = handle_.advertise<Instruction>("instruction", 10, true);
     confirm_ = handle_.advertiseService("conduct/confirm", &RigOperatorNode::onConfirm, this);
     heard_ = handle_.subscribe("rig_emulator/acts", 100, &RigOperatorNode::onAct, this);
-    EXPECT_TRUE(
-        until([this] { return instruction_.getNumSubscribers() > 0 && heard_.getNumPublishers() > 0; }));
+    EXPECT_TRUE(test_support::await(
+        [this] { return instruction_.getNumSubscribers() > 0 && heard_.getNumPublishers() > 0; }));
   }
   void give(const Instruction& instruction) { instruction_.publish(instruction); }
   bool does(const std::string& act) {
-    return until([&] { return std::count(acts_.begin(), acts_.end(), act) > 0; });
+    return test_support::await([&] { return std::count(acts_.begin(), acts_.end(), act) > 0; });
   }
   /// Highest pressure from now on, until the chamber was above 50 kPa and is empty again [Pa].
   double pressPeak() {
@@ -98,7 +89,7 @@ TEST_F(RigOperatorNode, PutsTheSheetOnAndConfirms) {
   give(mount(1, "cylinder_5cm"));
   EXPECT_TRUE(does("take the sheet off"));
   EXPECT_TRUE(does("put the sheet on cylinder_5cm"));
-  EXPECT_TRUE(until([this] { return confirmed_ > 0; }));
+  EXPECT_TRUE(test_support::await([this] { return confirmed_ > 0; }));
   EXPECT_EQ(confirmed_, 1);
 }
 
@@ -144,10 +135,3 @@ TEST_F(RigOperatorNode, SurvivesInstructionsThatNobodyCanFollow) {
 }
 
 }  // namespace
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "rig_operator_test");
-  ros::NodeHandle keep_running;
-  return RUN_ALL_TESTS();
-}

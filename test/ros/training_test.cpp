@@ -24,6 +24,7 @@
 #include "ros/bags/bag_writer.h"
 #include "ros/bags/resource_path.h"
 #include "ros/tools/tools.h"
+#include "support/ros_listener.h"
 #include "support/synthetic_recording.h"
 
 namespace {
@@ -68,14 +69,6 @@ class Training : public testing::Test {
     return trigger.response;
   }
 
-  bool waitUntil(const std::function<bool()>& done) {
-    const ros::WallTime give_up = ros::WallTime::now() + ros::WallDuration(40);
-    while (!done() && ros::WallTime::now() < give_up) {
-      ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.05));
-    }
-    return done();
-  }
-
   ros::NodeHandle handle_;
   fs::path folder_;
   ros::Subscriber gathered_;
@@ -112,7 +105,7 @@ fsr::calibration::Calibration trainedByTool(const std::string& bag, const std::s
 }
 
 TEST_F(Training, SaysWhatItWaitsFor) {
-  ASSERT_TRUE(waitUntil([this] { return !message_.empty(); }));
+  ASSERT_TRUE(test_support::await([this] { return !message_.empty(); }));
   EXPECT_EQ(message_, "waiting for raw, chamber_pressure, curvature");
   const std_srvs::Trigger::Response answer = call("training/train");
   EXPECT_FALSE(answer.success);
@@ -134,7 +127,7 @@ TEST_F(Training, AReplayedBagGivesTheTablesOfTheTool) {
   const auto expected = messagesIn(bag);
   {
     const Replay replay(bag);
-    ASSERT_TRUE(waitUntil([&] {
+    ASSERT_TRUE(test_support::await([&] {
       for (const auto& [topic, count] : expected) {
         if (counts_[topic] != count) return false;
       }
@@ -171,14 +164,8 @@ TEST_F(Training, ClearRemovesWhatWasCollected) {
   const std_srvs::Trigger::Response answer = call("training/clear");
   EXPECT_TRUE(answer.success);
   EXPECT_EQ(answer.message, "removed 600 scans");
-  EXPECT_TRUE(waitUntil([this] { return message_ == "waiting for raw, chamber_pressure, curvature"; }));
+  EXPECT_TRUE(
+      test_support::await([this] { return message_ == "waiting for raw, chamber_pressure, curvature"; }));
 }
 
 }  // namespace
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "training_test");
-  const ros::NodeHandle keep_running;
-  return RUN_ALL_TESTS();
-}

@@ -15,6 +15,8 @@
 #include <cmath>
 #include <functional>
 
+#include "support/ros_listener.h"
+
 namespace {
 
 using fsr_pressure_map::PressureMap;
@@ -31,21 +33,10 @@ class View : public testing::Test {
 
   /// Publishes maps until `done`, or for 30 s.
   bool publishUntil(const std::function<bool()>& done) {
-    const ros::WallTime give_up = ros::WallTime::now() + ros::WallDuration(30);
-    while (!done() && ros::WallTime::now() < give_up) {
-      maps.publish(map());
-      ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.02));
-    }
-    return done();
-  }
-
-  /// Waits for `done` without publishing maps, at most 30 s.
-  static bool waitFor(const std::function<bool()>& done) {
-    const ros::WallTime give_up = ros::WallTime::now() + ros::WallDuration(30);
-    while (!done() && ros::WallTime::now() < give_up) {
-      ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.02));
-    }
-    return done();
+    return test_support::await([&] {
+      if (!done()) maps.publish(map());
+      return done();
+    });
   }
 
   static PressureMap map() {
@@ -154,7 +145,7 @@ TEST_F(View, PaintsAnImageForAnyViewer) {
     return image->data[middle] == 128 && image->data[middle + 1] == 128 && image->data[middle + 2] == 128;
   };
   EXPECT_FALSE(isGrey());
-  EXPECT_TRUE(waitFor(isGrey));
+  EXPECT_TRUE(test_support::await(isGrey));
 }
 
 // 10, 11, 12, 13, 14 kPa are in contact (10 kPa and more), 1e-4 m^2 each: 60 kPa x 1e-4 m^2 = 6 N.
@@ -179,7 +170,7 @@ TEST_F(View, CountsAndThenSaysUnknownWhenMapsStop) {
   EXPECT_TRUE(publishUntil([&] { return array->regions.at(0).alarm == PressureStatistics::OK; }));
   EXPECT_NEAR(centre->point.y, 0.010, 1e-6);  // all of row 2
   const auto unknown = [&] { return array->regions.at(0).alarm == PressureStatistics::UNKNOWN; };
-  EXPECT_TRUE(waitFor(unknown));
+  EXPECT_TRUE(test_support::await(unknown));
   EXPECT_TRUE(std::isnan(array->regions.at(0).peak));
   EXPECT_TRUE(setAlarm(0));
 }
@@ -211,10 +202,3 @@ TEST_F(View, ReceivesMapsOnlyWhileSomebodyLooks) {
 }
 
 }  // namespace
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "view_node_test");
-  const ros::NodeHandle keep_alive;
-  return RUN_ALL_TESTS();
-}

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "blind/hidden/forms.h"
 
@@ -133,108 +134,81 @@ struct JilesAthertonState {
   double lag() const { return output - anhysteretic(load); }
 };
 
+// Adds size * value(state), with a state that starts as `fresh`.
+template <typename State, typename Value>
 class Loop : public Hidden {
- protected:
-  Loop(const HiddenSetup& setup, double size)
-      : setup_(setup), size_(size * setup.strength), scatter_(taxelScatter(setup, "loop scatter", 0.1)) {
+ public:
+  Loop(const HiddenSetup& setup, double size, const std::vector<HiddenParameter>& parameters, State fresh,
+       Value value)
+      : setup_(setup),
+        size_(size * setup.strength),
+        scatter_(taxelScatter(setup, "loop scatter", 0.1)),
+        fresh_(std::move(fresh)),
+        value_(value) {
     parameters_ = {{"loop_size", size_, "Pa"}};
+    parameters_.insert(parameters_.end(), parameters.begin(), parameters.end());
   }
-  template <typename State, typename Value>
-  void addTo(Trace& load, std::size_t taxel, const State& fresh, Value value) const {
+  void onLoad(std::size_t taxel, Trace& load) const override {
     const Trace before = load;
     const double size = size_ * scatter_[taxel];
     follow(
-        setup_, fresh, [&](std::size_t scan) { return before[scan]; },
-        [&](std::size_t scan, const State& state) { load[scan] += size * value(state); });
+        setup_, fresh_, [&](std::size_t scan) { return before[scan]; },
+        [&](std::size_t scan, const State& state) { load[scan] += size * value_(state); });
   }
+
+ private:
   HiddenSetup setup_;
   double size_;  // [Pa]
   std::vector<double> scatter_;
+  State fresh_;
+  Value value_;
 };
 
-class Preisach : public Loop {
- public:
-  explicit Preisach(const HiddenSetup& setup)
-      : Loop(setup, Random(setup.seed, "preisach").uniform(35e3, 55e3)),
-        scale_(Random(setup.seed, "preisach scale").uniform(180e3, 350e3)),
-        lopsided_(Random(setup.seed, "preisach side").uniform(-0.3, 0.3)) {
-    parameters_.push_back({"scale", scale_, "Pa"});
-    parameters_.push_back({"lopsided", lopsided_, "1"});
-  }
-  void onLoad(std::size_t taxel, Trace& load) const override {
-    const auto loop = [](const PreisachState& state) { return state.output() - state.middle(); };
-    addTo(load, taxel, PreisachState(scale_, lopsided_), loop);
-  }
+template <typename State, typename Value>
+std::unique_ptr<Hidden> loop(const HiddenSetup& setup, double size,
+                             const std::vector<HiddenParameter>& parameters, State fresh, Value value) {
+  return std::make_unique<Loop<State, Value>>(setup, size, parameters, std::move(fresh), value);
+}
 
- private:
-  double scale_, lopsided_;
-};
+double draw(const HiddenSetup& setup, const char* purpose, double low, double high) {
+  return Random(setup.seed, purpose).uniform(low, high);
+}
 
-class Duhem : public Loop {
- public:
-  explicit Duhem(const HiddenSetup& setup)
-      : Loop(setup, Random(setup.seed, "duhem").uniform(15e3, 28e3)),
-        length_(Random(setup.seed, "duhem length").uniform(60e3, 180e3)) {
-    parameters_.push_back({"length", length_, "Pa"});
-  }
-  void onLoad(std::size_t taxel, Trace& load) const override {
-    addTo(load, taxel, DuhemState{length_}, [](const DuhemState& state) { return state.arm; });
-  }
+std::unique_ptr<Hidden> preisach(const HiddenSetup& setup) {
+  const double scale = draw(setup, "preisach scale", 180e3, 350e3);
+  const double lopsided = draw(setup, "preisach side", -0.3, 0.3);
+  return loop(setup, draw(setup, "preisach", 35e3, 55e3),
+              {{"scale", scale, "Pa"}, {"lopsided", lopsided, "1"}}, PreisachState(scale, lopsided),
+              [](const PreisachState& state) { return state.output() - state.middle(); });
+}
 
- private:
-  double length_;
-};
+std::unique_ptr<Hidden> duhem(const HiddenSetup& setup) {
+  const double length = draw(setup, "duhem length", 60e3, 180e3);
+  return loop(setup, draw(setup, "duhem", 15e3, 28e3), {{"length", length, "Pa"}}, DuhemState{length},
+              [](const DuhemState& state) { return state.arm; });
+}
 
-class OneSided : public Loop {
- public:
-  explicit OneSided(const HiddenSetup& setup)
-      : Loop(setup, Random(setup.seed, "one-sided").uniform(20e3, 35e3)),
-        length_(Random(setup.seed, "one-sided length").uniform(80e3, 200e3)) {
-    parameters_.push_back({"length", length_, "Pa"});
-  }
-  void onLoad(std::size_t taxel, Trace& load) const override {
-    addTo(load, taxel, OneSidedState{length_}, [](const OneSidedState& state) { return state.lag; });
-  }
+std::unique_ptr<Hidden> oneSided(const HiddenSetup& setup) {
+  const double length = draw(setup, "one-sided length", 80e3, 200e3);
+  return loop(setup, draw(setup, "one-sided", 20e3, 35e3), {{"length", length, "Pa"}}, OneSidedState{length},
+              [](const OneSidedState& state) { return state.lag; });
+}
 
- private:
-  double length_;
-};
+std::unique_ptr<Hidden> boucWen(const HiddenSetup& setup) {
+  const double length = draw(setup, "bouc-wen length", 60e3, 160e3);
+  const double exponent = draw(setup, "bouc-wen exponent", 1, 2);
+  return loop(setup, draw(setup, "bouc-wen", 12e3, 22e3),
+              {{"length", length, "Pa"}, {"exponent", exponent, "1"}}, BoucWenState{length, exponent},
+              [](const BoucWenState& state) { return state.output(); });
+}
 
-class BoucWen : public Loop {
- public:
-  explicit BoucWen(const HiddenSetup& setup)
-      : Loop(setup, Random(setup.seed, "bouc-wen").uniform(12e3, 22e3)),
-        length_(Random(setup.seed, "bouc-wen length").uniform(60e3, 160e3)),
-        exponent_(Random(setup.seed, "bouc-wen exponent").uniform(1, 2)) {
-    parameters_.push_back({"length", length_, "Pa"});
-    parameters_.push_back({"exponent", exponent_, "1"});
-  }
-  void onLoad(std::size_t taxel, Trace& load) const override {
-    addTo(load, taxel, BoucWenState{length_, exponent_},
-          [](const BoucWenState& state) { return state.output(); });
-  }
-
- private:
-  double length_, exponent_;
-};
-
-class JilesAtherton : public Loop {
- public:
-  explicit JilesAtherton(const HiddenSetup& setup)
-      : Loop(setup, Random(setup.seed, "jiles-atherton").uniform(60e3, 100e3)),
-        pinning_(Random(setup.seed, "pinning").uniform(0.12, 0.3)),
-        shape_(Random(setup.seed, "langevin").uniform(0.15, 0.4)) {
-    parameters_.push_back({"pinning", pinning_ * kPeak, "Pa"});
-    parameters_.push_back({"langevin_scale", shape_ * kPeak, "Pa"});
-  }
-  void onLoad(std::size_t taxel, Trace& load) const override {
-    addTo(load, taxel, JilesAthertonState{pinning_, shape_},
-          [](const JilesAthertonState& state) { return state.lag(); });
-  }
-
- private:
-  double pinning_, shape_;
-};
+std::unique_ptr<Hidden> jilesAtherton(const HiddenSetup& setup) {
+  const double pinning = draw(setup, "pinning", 0.12, 0.3), shape = draw(setup, "langevin", 0.15, 0.4);
+  return loop(setup, draw(setup, "jiles-atherton", 60e3, 100e3),
+              {{"pinning", pinning * kPeak, "Pa"}, {"langevin_scale", shape * kPeak, "Pa"}},
+              JilesAthertonState{pinning, shape},
+              [](const JilesAthertonState& state) { return state.lag(); });
+}
 
 HiddenForm form(const char* name, std::unique_ptr<Hidden> (*make)(const HiddenSetup&)) {
   HiddenForm form{"hysteresis", name, {"direction", "pressure"}, make};
@@ -245,9 +219,8 @@ HiddenForm form(const char* name, std::unique_ptr<Hidden> (*make)(const HiddenSe
 }  // namespace
 
 std::vector<HiddenForm> hysteresisForms() {
-  return {form("preisach", makeHidden<Preisach>), form("duhem", makeHidden<Duhem>),
-          form("one_sided", makeHidden<OneSided>), form("bouc_wen", makeHidden<BoucWen>),
-          inSetB(form("jiles_atherton", makeHidden<JilesAtherton>))};
+  return {form("preisach", preisach), form("duhem", duhem), form("one_sided", oneSided),
+          form("bouc_wen", boucWen), inSetB(form("jiles_atherton", jilesAtherton))};
 }
 
 }  // namespace blind

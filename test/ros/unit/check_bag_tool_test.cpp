@@ -1,7 +1,5 @@
 #include "ros/tools/tools.h"
 
-#include <unistd.h>
-
 #include <fsr_pressure_map/Event.h>
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
@@ -13,6 +11,7 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "ros/bags/bag_topics.h"
 #include "ros/bags/bag_writer.h"
+#include "support/folder_test.h"
 #include "support/mounted_day.h"
 #include "support/synthetic_recording.h"
 #include "support/tool_run.h"
@@ -24,16 +23,8 @@ namespace fs = std::filesystem;
 
 constexpr std::int64_t kStart = 1500000000000000000;  // [ns]
 
-class CheckBagTool : public testing::Test {
+class CheckBagTool : public test_support::FolderTest {
  protected:
-  void SetUp() override {
-    const auto* const test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path(testing::TempDir()) / ("check_bag_" + std::to_string(::getpid()) + "_" + test->name());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   std::string record(bool with_chamber = true) const {
     test_support::SyntheticRig rig;
     rig.size = {3, 4};
@@ -56,7 +47,6 @@ class CheckBagTool : public testing::Test {
     return said_.size() >= words.size() && said_.substr(said_.size() - words.size()) == words;
   }
 
-  fs::path folder_;
   std::string said_;
 };
 

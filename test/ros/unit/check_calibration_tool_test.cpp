@@ -1,7 +1,5 @@
 #include "ros/tools/tools.h"
 
-#include <unistd.h>
-
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -13,6 +11,7 @@
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "ros/bags/bag_writer.h"
+#include "support/folder_test.h"
 #include "support/synthetic_recording.h"
 #include "support/tool_run.h"
 
@@ -21,13 +20,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class CheckCalibrationTool : public testing::Test {
+class CheckCalibrationTool : public test_support::FolderTest {
  protected:
-  void SetUp() override {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_ / "bags");
-  }
-  void TearDown() override { fs::remove_all(folder_); }
+  void SetUp() override { fs::create_directories(folder_ / "bags"); }
 
   // A bag a week, and a calibration of the first one.
   void record(const std::string& serial, const test_support::LifeRig& rig) const {
@@ -55,9 +50,6 @@ class CheckCalibrationTool : public testing::Test {
   }
   bool says(const std::string& words) const { return said_.find(words) != std::string::npos; }
 
-  const fs::path folder_ =
-      fs::path(testing::TempDir()) / ("check_" + std::to_string(::getpid()) + "_" +
-                                      testing::UnitTest::GetInstance()->current_test_info()->name());
   std::string said_;
 };
 
@@ -142,7 +134,6 @@ class CheckOnBags : public CheckCalibrationTool {
     recording.start_ns = 1500000000000000000;
     return recording;
   }
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
   const std::string sheet_ = path("sheet.h5"), same_ = path("same.bag");
 };

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -13,33 +12,29 @@
 
 #include "fsr_pressure_map/ros/bag_reader.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "support/folder_test.h"
+#include "support/holds.h"
 #include "support/source_dir.h"
+#include "support/tool_run.h"
 
 namespace fsr_ros {
 namespace {
+
+using test_support::holds;
 
 namespace fs = std::filesystem;
 
 const std::string kMeasured = test_support::sourceDir() + "/test/data/measured/";
 
-class CsvToBag : public testing::Test {
+class CsvToBag : public test_support::FolderTest {
  protected:
-  void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) /
-              ("csv_" + std::to_string(::getpid()) + "_" +
-               std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-    bag_ = (folder_ / "table.bag").string();
-  }
-  void TearDown() override { fs::remove_all(folder_); }
+  void SetUp() override { bag_ = (folder_ / "table.bag").string(); }
 
   void run(std::vector<std::string> words) {
-    words.insert(words.begin(), "csv_to_bag");
     words.insert(words.end(), {"--output", bag_});
-    std::vector<const char*> argv;
-    for (const std::string& word : words) argv.push_back(word.c_str());
-    EXPECT_EQ(csvToBagTool(static_cast<int>(argv.size()), argv.data(), out_), 0);
+    const test_support::ToolRun run = test_support::runTool(csvToBagTool, "csv_to_bag", words);
+    said_ = run.said();
+    EXPECT_EQ(run.status, run.error.empty() ? 0 : -1);
   }
   fsr_pressure_map::MatrixInfo matrixInfo() const {
     const rosbag::Bag bag(bag_);
@@ -51,9 +46,8 @@ class CsvToBag : public testing::Test {
     return {*low, *high};
   }
 
-  fs::path folder_;
   std::string bag_;
-  std::ostringstream out_;
+  std::string said_;
 };
 
 TEST_F(CsvToBag, ConvertsForceAgainstPositionOfAPiston) {
@@ -83,10 +77,9 @@ TEST_F(CsvToBag, ConvertsTwoChambersAgainstForce) {
   EXPECT_EQ(recording.scans(), 10400u);
   EXPECT_EQ(recording.layout.size, (fsr::matrix::MatrixSize{1, 2}));
   EXPECT_NEAR(range(recording.pressure).second, 12.51942 / 2e-5, 1e-3);
-  EXPECT_NE(out_.str().find("reference = force / 2e-05 m^2 (--area)"), std::string::npos) << out_.str();
+  EXPECT_NE(said_.find("reference = force / 2e-05 m^2 (--area)"), std::string::npos) << said_;
   EXPECT_EQ(matrixInfo().reference_voltage, 5.0f);
-  EXPECT_NE(out_.str().find("10400 scans of 1 x 2 taxels"), std::string::npos) << out_.str();
-  EXPECT_NE(out_.str().find("65535 counts = 5 V"), std::string::npos) << out_.str();
+  EXPECT_TRUE(holds(said_, {"10400 scans of 1 x 2 taxels", "65535 counts = 5 V"}));
 }
 
 TEST_F(CsvToBag, KeepsEveryStepOfTheOilRecording) {
@@ -107,24 +100,16 @@ TEST_F(CsvToBag, StatesConductancesByTheReadOutsResistance) {
 
 TEST_F(CsvToBag, LeavesNoBagBehindAnErrorAndNamesIt) {
   std::ofstream(folder_ / "bad.csv") << "0,1\n0.1,x\n";
-  const auto complaint = [&](std::vector<std::string> words) -> std::string {
-    try {
-      run(std::move(words));
-    } catch (const fsr::settings::InputError& error) {
-      return error.what();
-    }
-    return "";
+  const auto complaint = [&](const std::vector<std::string>& words) {
+    run(words);
+    return said_;
   };
   const std::string bad = (folder_ / "bad.csv").string();
-  EXPECT_NE(complaint({bad, "--columns", "time=1,reading=2:V"}).find("bad.csv, line 2, column 2"),
-            std::string::npos);
+  EXPECT_TRUE(holds(complaint({bad, "--columns", "time=1,reading=2:V"}), {"bad.csv, line 2, column 2"}));
   EXPECT_NE(complaint({bad}).find("--columns"), std::string::npos);
-  EXPECT_NE(complaint({bad, "--columns", "time=1,reading=2", "--range", "5"}).find("--range"),
-            std::string::npos);
-  EXPECT_NE(complaint({bad, "--columns", "time=1,reading=2", "--matrix", "0x3"}).find("--matrix"),
-            std::string::npos);
-  EXPECT_NE(complaint({bad, "--columns", "time=1,reading=2", "--separator", "dot"}).find("semicolon"),
-            std::string::npos);
+  EXPECT_TRUE(holds(complaint({bad, "--columns", "time=1,reading=2", "--range", "5"}), {"--range"}));
+  EXPECT_TRUE(holds(complaint({bad, "--columns", "time=1,reading=2", "--matrix", "0x3"}), {"--matrix"}));
+  EXPECT_TRUE(holds(complaint({bad, "--columns", "time=1,reading=2", "--separator", "dot"}), {"semicolon"}));
   EXPECT_FALSE(fs::exists(bag_));
 }
 

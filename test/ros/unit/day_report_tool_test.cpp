@@ -11,12 +11,10 @@
 #include <sstream>
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "ros/bags/bag_writer.h"
 #include "ros/programs/sibling_program.h"
 #include "session/conductor.h"
 #include "session/plan_file.h"
 #include "session/session_files.h"
-#include "support/mounted_day.h"
 #include "support/source_dir.h"
 #include "support/tool_run.h"
 
@@ -88,29 +86,6 @@ TEST_F(DayReportTool, ABagThatNoToolReadsAppearsWithTheirSentences) {
     EXPECT_TRUE(has(page(), begin)) << tool;
   }
   EXPECT_TRUE(has(page(), "rosrun fsr_pressure_map train day_01_flat.bag --output day_calibration.h5"));
-}
-
-TEST_F(DayReportTool, TheFirstAdviceNamesTheMountsThatDifferFromTheOthersOfTheirSurface) {
-  const auto plan = fsr::session::readPlan(
-      fsr::settings::Settings::fromText(
-          "plan: day\norder: listed\nconditioning: {cycles: 0}\nrepeat_first: false\nsurfaces:\n"
-          "  - {surface: cylinder_10cm, mounts: 2, cylinder: {radius: 0.10, axis: y}}\n"
-          "  - {surface: cylinder_6cm, mounts: 2, cylinder: {radius: 0.06, axis: y}}\n"
-          "  - {surface: flat, mounts: 2, flat: true}\n"
-          "  - {surface: cylinder_8cm, mounts: 2, cylinder: {radius: 0.08, axis: y}}\n"
-          "program: [{cycles: {peak: 620000, rate: 40000, dwell_peak: 1, dwell_rest: 1, cycles: 3}}]\n",
-          "day.yaml"),
-      "");
-  std::ofstream(path("day_plan.yaml")) << planText(plan);
-  fsr::session::writeState(path("day_session.yaml"), fsr::session::Conductor(plan).state());
-  for (const fsr::dataset::Recording& mount : test_support::recorded({"bench", 2, true}))
-    writeBag(path("day_0" + mount.name), mount);
-  run({folder_.string()});
-  const std::string html = page(),
-                    advice = html.substr(std::min(html.find("What to record next"), html.size()));
-  const std::size_t first = advice.find("<li>");
-  EXPECT_EQ(advice.compare(first, 52, "<li>What train warns of: cylinder_10cm: mount 1 (day"), 0)
-      << said_ << advice.substr(0, 2000);
 }
 
 // As a kill -9 or a power cut leaves them.

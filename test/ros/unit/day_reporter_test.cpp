@@ -1,7 +1,6 @@
 #include "ros/recording/day_reporter.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <filesystem>
@@ -11,6 +10,7 @@
 #include "session/conductor.h"
 #include "session/plan_file.h"
 #include "session/session_files.h"
+#include "support/folder_test.h"
 #include "support/source_dir.h"
 
 namespace fsr_ros {
@@ -20,17 +20,8 @@ namespace fs = std::filesystem;
 
 constexpr char kWriting[] = "The report of the day is being written.";
 
-class DayReporterTest : public testing::Test {
+class DayReporterTest : public test_support::FolderTest {
  protected:
-  void SetUp() override {
-    const auto* const test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path(testing::TempDir()) /
-              ("reporter_" + std::to_string(::getpid()) + "_" + std::string(test->name()));
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   // A session without bags, so that the report is quickly written.
   void session() const {
     const auto plan = fsr::session::readPlan(
@@ -49,8 +40,6 @@ class DayReporterTest : public testing::Test {
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     } while (reporter.sentence() == kWriting);
   }
-
-  fs::path folder_;
 };
 
 TEST_F(DayReporterTest, WritesTheReportOnceTheSessionIsOver) {

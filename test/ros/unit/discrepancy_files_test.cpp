@@ -1,7 +1,6 @@
 #include "ros/tools/discrepancy_files.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -13,6 +12,8 @@
 #include "ros/tools/show_ledger.h"
 #include "ros/tools/tool_options.h"
 #include "support/example_discrepancy.h"
+#include "support/folder_test.h"
+#include "support/holds.h"
 #include "support/source_dir.h"
 
 namespace fsr_ros {
@@ -20,17 +21,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class DiscrepancyFiles : public testing::Test {
+class DiscrepancyFiles : public test_support::FolderTest {
  protected:
   void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) /
-              ("discrepancy_" + std::to_string(::getpid()) +
-               std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-    fs::remove_all(folder_);
     report_.base = report_.added =
         fsr::simulation::readSimulationFile(test_support::sourceDir() + "/config/simulation/core.yaml");
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
   std::string text(const std::string& name) const {
     std::ifstream file(folder_ / name);
@@ -38,15 +34,11 @@ class DiscrepancyFiles : public testing::Test {
   }
   /// Draws the report; returns the error, or "".
   std::string draw() const {
-    try {
+    return test_support::refusal([&] {
       runPython(test_support::sourceDir() + "/scripts/figures/discrepancy.py", {folder_.string()});
-    } catch (const fsr::settings::InputError& error) {
-      return error.what();
-    }
-    return "";
+    });
   }
 
-  fs::path folder_;
   fsr::discrepancy::DiscrepancyReport report_ = test_support::exampleDiscrepancy();
 };
 
@@ -65,12 +57,8 @@ TEST_F(DiscrepancyFiles, AreAllThereAndReadBack) {
 TEST_F(DiscrepancyFiles, RefuseAVerdictThatWasEditedSince) {
   writeDiscrepancy(report_, outputFolder(folder_.string()));
   std::ofstream(folder_ / "verdict.yaml", std::ios::app) << "# 0.07 looks better\n";
-  try {
-    readPredictionBeside((folder_ / "verdict.yaml").string());
-    FAIL() << "not refused";
-  } catch (const fsr::settings::InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("edited"), std::string::npos) << error.what();
-  }
+  EXPECT_TRUE(test_support::holds(
+      test_support::refusal([&] { readPredictionBeside((folder_ / "verdict.yaml").string()); }), {"edited"}));
 }
 
 TEST_F(DiscrepancyFiles, BecomeAReportThatNeedsNoNetwork) {

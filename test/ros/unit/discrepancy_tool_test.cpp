@@ -1,7 +1,6 @@
 #include "ros/tools/tools.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -15,6 +14,7 @@
 #include "report/verdict_file.h"
 #include "ros/bags/bag_writer.h"
 #include "simulation/settings_text.h"
+#include "support/folder_test.h"
 #include "support/source_dir.h"
 #include "support/synthetic_recording.h"
 #include "support/tool_run.h"
@@ -27,19 +27,13 @@ namespace fs = std::filesystem;
 const std::string kCore = test_support::sourceDir() + "/config/simulation/core.yaml";
 
 // Errors of the tool and the files that it leaves; the verdicts are tested in test/discrepancy.
-class DiscrepancyTool : public testing::Test {
+class DiscrepancyTool : public test_support::FolderTest {
  protected:
   void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) /
-              ("tool_" + std::to_string(::getpid()) +
-               std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-    fs::remove_all(folder_);
     fs::create_directories(folder_ / "session");
     ::setenv("ROS_HOME", folder_.c_str(), 1);
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
   static fsr::dataset::Recording recorded(const test_support::SyntheticRig& rig) {
     fsr::dataset::Recording recording = test_support::syntheticRecording(rig);
     recording.start_ns = 1500000000000000000;
@@ -71,8 +65,6 @@ class DiscrepancyTool : public testing::Test {
     for (const std::string& part : parts)
       EXPECT_NE(said.find(part), std::string::npos) << part << " in: " << said;
   }
-
-  fs::path folder_;
 };
 
 TEST_F(DiscrepancyTool, TakesAFolderAndCountsEveryUse) {

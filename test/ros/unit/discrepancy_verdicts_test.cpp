@@ -1,6 +1,5 @@
 // Every verdict, obtained as a user does: bags in, verdict.yaml out.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -15,6 +14,8 @@
 #include "settings/replace_file.h"
 #include "simulation/settings_text.h"
 #include "statistics/random_stream.h"
+#include "support/folder_test.h"
+#include "support/tool_run.h"
 
 namespace fsr_ros {
 namespace {
@@ -22,19 +23,9 @@ namespace {
 namespace fs = std::filesystem;
 using Words = std::vector<std::string>;
 
-class DiscrepancyVerdicts : public testing::Test {
+class DiscrepancyVerdicts : public test_support::FolderTest {
  protected:
-  void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) /
-              ("verdicts_" + std::to_string(::getpid()) +
-               std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-    ::setenv("ROS_HOME", folder_.c_str(), 1);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  void SetUp() override { ::setenv("ROS_HOME", folder_.c_str(), 1); }
 
   /// Writes the bags of a session to a folder, and the simulation without the hidden effect beside them.
   std::string session(const std::string& name, const fsr::discrepancy::DiscrepancyProblem& problem) const {
@@ -44,18 +35,9 @@ class DiscrepancyVerdicts : public testing::Test {
     fsr::settings::replaceFile(path("simulation.yaml"), fsr::simulation::simulationText(problem.simulation));
     return path(name);
   }
-  std::string run(const Words& more) const {
-    Words words = {"discrepancy", "--no-report"};
-    words.insert(words.end(), more.begin(), more.end());
-    std::vector<const char*> arguments;
-    for (const std::string& word : words) arguments.push_back(word.c_str());
-    std::ostringstream out;
-    try {
-      EXPECT_EQ(discrepancyTool(static_cast<int>(arguments.size()), arguments.data(), out), 0);
-      return out.str();
-    } catch (const fsr::settings::InputError& error) {
-      return error.what();
-    }
+  static std::string run(Words words) {
+    words.insert(words.begin(), "--no-report");
+    return test_support::runTool(discrepancyTool, "discrepancy", words).said();
   }
   fsr::report::VerdictFile verdict(const Words& bags, const Words& more = {}) const {
     Words words = {"--simulation", path("simulation.yaml"), "--output", path("out")};
@@ -69,8 +51,6 @@ class DiscrepancyVerdicts : public testing::Test {
                                   const Words& more = {}) const {
     return verdict({session("bags", fsr::discrepancy::planted::problem(rig, effects))}, more);
   }
-
-  fs::path folder_;
 };
 
 const std::string kLoop = "  hysteresis: {loop_width: 0.05}\n";
@@ -115,34 +95,6 @@ TEST_F(DiscrepancyVerdicts, NotIdentifiable) {
   EXPECT_EQ(file.credible_set, (std::vector<Words>{{"crosstalk"}}));
 }
 
-TEST_F(DiscrepancyVerdicts, NotIdentifiableWithTooFewCycles) {
-  fsr::discrepancy::DiscrepancyProblem problem =
-      fsr::discrepancy::planted::problem(fsr::discrepancy::planted::kOneSpeed, "");
-  for (fsr::dataset::Recording& recording : problem.recordings) {
-    const auto scans = recording.scans() / 8;  // of 8 cycles
-    recording.time.resize(scans);
-    recording.pressure.resize(scans);
-    recording.condition.resize(scans);
-    if (!recording.temperature.empty()) recording.temperature.resize(scans);
-    recording.counts.resize(scans * recording.layout.size.taxels());
-  }
-  const fsr::report::VerdictFile file = verdict({session("bags", problem)}, {"--ask", "creep"});
-  EXPECT_EQ(file.verdict, "not_identifiable");
-  EXPECT_EQ(file.credible_set, (std::vector<Words>{{"creep"}}));
-}
-
-// The sheet lies beside the chamber, which check_bag calls not fit.
-TEST_F(DiscrepancyVerdicts, NeverNoneFromWhatIsNotFit) {
-  fsr::discrepancy::DiscrepancyProblem problem =
-      fsr::discrepancy::planted::problem(fsr::discrepancy::planted::kOneSpeed, "");
-  for (fsr::dataset::Recording& recording : problem.recordings) {
-    const fsr::statistics::RandomStream noise = fsr::statistics::randomStream(1, recording.name);
-    for (std::size_t k = 0; k < recording.counts.size(); ++k)
-      recording.counts[k] = static_cast<std::uint16_t>(700 + noise.bits(k) % 41);
-  }
-  EXPECT_EQ(verdict({session("bags", problem)}).verdict, "not_identifiable");
-}
-
 // A single speed cannot distinguish a loop from a short memory. The experiment that the verdict recommends
 // identifies the right one. The prediction made before it is confirmed, and it fails on a rig with a short
 // memory instead.
@@ -166,18 +118,6 @@ TEST_F(DiscrepancyVerdicts, AmbiguousUntilTheRecommendedExperimentIsRun) {
   const fsr::report::VerdictFile after = verdict({first, experiment});
   EXPECT_EQ(after.verdict, "named");
   EXPECT_EQ(after.effects, Words{"hysteresis"});
-}
-
-// Without the loop in the library, a similar effect was found and predicted. The experiment refutes it.
-TEST_F(DiscrepancyVerdicts, AFrozenWrongPredictionIsNotConfirmed) {
-  const std::string first =
-      session("one_speed", fsr::discrepancy::planted::problem(fsr::discrepancy::planted::kOneSpeed, kLoop));
-  const fsr::report::VerdictFile wrong = verdict({first}, {"--without", "hysteresis"});
-  ASSERT_FALSE(wrong.effects.empty()) << wrong.verdict;
-  const std::string experiment =
-      session("two_speeds", fsr::discrepancy::planted::problem(fsr::discrepancy::planted::kTwoSpeeds, kLoop));
-  const std::string said = run({"--confirm", path("out/verdict.yaml"), experiment});
-  EXPECT_EQ(said.find("Not confirmed: " + wrong.effects.front()), 0u) << said;
 }
 
 }  // namespace

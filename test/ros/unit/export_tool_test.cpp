@@ -28,6 +28,7 @@
 #include "support/small_calibration.h"
 #include "support/source_dir.h"
 #include "support/synthetic_recording.h"
+#include "support/tool_run.h"
 
 namespace {
 
@@ -53,15 +54,10 @@ class ExportTool : public testing::Test {
 
   std::string run(const std::vector<std::string>& words,
                   const std::vector<fsr::exports::ScanFormat>& formats = fsr::exports::scanFormats()) {
-    std::vector<const char*> arguments = {"export"};
-    for (const std::string& word : words) arguments.push_back(word.c_str());
-    std::ostringstream out;
-    try {
-      EXPECT_EQ(fsr_ros::exportTool(static_cast<int>(arguments.size()), arguments.data(), out, formats), 0);
-      return out.str();
-    } catch (const fsr::settings::InputError& error) {
-      return error.what();
-    }
+    const auto tool = [&](int argc, const char* const* argv, std::ostream& out) {
+      return fsr_ros::exportTool(argc, argv, out, formats);
+    };
+    return test_support::runTool(tool, "export", words).said();
   }
 
   // The columns of the table by name.

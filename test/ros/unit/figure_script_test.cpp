@@ -2,42 +2,30 @@
 
 #include <gtest/gtest.h>
 
-#include <unistd.h>
-
 #include <filesystem>
 #include <fstream>
 #include <string>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "support/folder_test.h"
+#include "support/holds.h"
 
 namespace {
 
-class FigureScript : public testing::Test {
+class FigureScript : public test_support::FolderTest {
  protected:
-  void SetUp() override {
-    folder_ = testing::TempDir() + "figure_script_" + std::to_string(::getpid()) + "/";
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   std::string script(const std::string& text) {
-    const std::string path = folder_ + "a script.py";
-    std::ofstream(path) << text;
-    return path;
+    const std::string file = path("a script.py");
+    std::ofstream(file) << text;
+    return file;
   }
-  std::string refusal(const std::string& path) {
-    try {
-      fsr_ros::runPython(path, {});
-    } catch (const fsr::settings::InputError& error) {
-      return error.what();
-    }
-    return "not refused";
+  std::string refusal(const std::string& file) {
+    return test_support::refusal([&] { fsr_ros::runPython(file, {}); }, "not refused");
   }
-  std::string folder_;
 };
 
 TEST_F(FigureScript, GetsItsArgumentsUnchanged) {
-  const std::string out = folder_ + "out";
+  const std::string out = path("out");
   fsr_ros::runPython(script("import sys; open(sys.argv[1], 'w').write(sys.argv[2])"),
                      {out, "$HOME; `ls` \"x\""});
   std::string line;
@@ -57,17 +45,13 @@ TEST_F(FigureScript, MayPrintMuch) {
 }
 
 TEST_F(FigureScript, IsNamedWhereItIsMissing) {
-  EXPECT_NE(refusal(folder_ + "none.py").find("none.py"), std::string::npos);
+  EXPECT_NE(refusal(path("none.py")).find("none.py"), std::string::npos);
 }
 
 TEST_F(FigureScript, IsFoundInThePackage) {
-  try {
-    fsr_ros::drawFigures("no_such_figure.py", {});
-    FAIL();
-  } catch (const fsr::settings::InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("/scripts/figures/no_such_figure.py"), std::string::npos)
-        << error.what();
-  }
+  EXPECT_TRUE(
+      test_support::holds(test_support::refusal([&] { fsr_ros::drawFigures("no_such_figure.py", {}); }),
+                          {"/scripts/figures/no_such_figure.py"}));
 }
 
 }  // namespace

@@ -2,29 +2,21 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "support/folder_test.h"
 
 namespace fsr_ros {
 namespace {
 
 namespace fs = std::filesystem;
 
-class MaskFile : public testing::Test {
+class MaskFile : public test_support::FolderTest {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "mask_file_XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder = name;
-    path = name + "/new/mask.yaml";
-  }
-  void TearDown() override { fs::remove_all(folder); }
-
-  std::string folder, path;
+  const std::string path = folder_ / "new" / "mask.yaml";
 };
 
 TEST_F(MaskFile, IsReadAsItWasWritten) {
@@ -37,7 +29,7 @@ TEST_F(MaskFile, IsReadAsItWasWritten) {
 }
 
 TEST_F(MaskFile, NeitherReadsNorReplacesAnotherFile) {
-  fs::create_directories(folder + "/new");
+  fs::create_directories(folder_ / "new");
   for (const char* const content : {"format: fsr_pressure_map tare 1\n", "#ROSBAG V2.0\nprecious"}) {
     std::ofstream(path) << content;
     EXPECT_THROW(loadMask(path), fsr::settings::InputError);

@@ -19,6 +19,7 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "support/pty.h"
 #include "support/source_dir.h"
+#include "support/tool_run.h"
 
 namespace {
 
@@ -60,16 +61,8 @@ class ScrubTool : public testing::Test {
     bag.write("/rosout", time, log);
     bag.close();
   }
-  std::string run(const std::vector<std::string>& words) {
-    std::vector<const char*> arguments = {"scrub"};
-    for (const std::string& word : words) arguments.push_back(word.c_str());
-    std::ostringstream out;
-    try {
-      EXPECT_EQ(fsr_ros::scrubTool(static_cast<int>(arguments.size()), arguments.data(), out), 0);
-      return out.str();
-    } catch (const fsr::settings::InputError& error) {
-      return error.what();
-    }
+  static std::string run(const std::vector<std::string>& words) {
+    return test_support::runTool(fsr_ros::scrubTool, "scrub", words).said();
   }
 
   test_support::TemporaryFolder folder_;

@@ -11,6 +11,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "ros/bags/bag_writer.h"
+#include "support/folder_test.h"
 #include "support/synthetic_recording.h"
 #include "support/tool_run.h"
 
@@ -24,18 +25,12 @@ std::string contentOf(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-class StudyTool : public testing::Test {
+class StudyTool : public test_support::FolderTest {
  protected:
   void SetUp() override {
-    const auto* const test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ =
-        fs::path(testing::TempDir()) / ("study_tool_" + std::to_string(::getpid()) + "_" + test->name());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
     std::ofstream(folder_ / "plan.yaml")
         << "study: quick\nforest: {trees: 5}\nresamples: 99\nbandwidths: [0.0078125, 0.0625]\n";
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
   std::string record(double noise = 60) const {
     test_support::SyntheticRig rig;
@@ -54,8 +49,6 @@ class StudyTool : public testing::Test {
     EXPECT_EQ(run.status, run.error.empty() ? 0 : -1);
     return run.said();
   }
-
-  fs::path folder_;
 };
 
 TEST_F(StudyTool, WritesResultsTablesFiguresAndAReportThatNeedsNoNetwork) {
@@ -162,39 +155,11 @@ TEST_F(StudyShards, MakeTheFilesOfARunWithoutShards) {
       << "the date is that of the first shard";
 }
 
-TEST_F(StudyShards, AreRefusedIfOneIsMissingOrThereTwice) {
-  fs::rename(path("shard_2_of_2.json"), path("shard_2_of_2.json.away"));
-  expectRefused({(folder_ / "out").string() + ": shard 2 of 2 is missing; run it with --shard 2/2"});
-  fs::rename(path("shard_2_of_2.json.away"), path("shard_2_of_2.json"));
-  fs::copy_file(path("shard_1_of_2.json"), path("shard_9.json"));
-  expectRefused({"shard_9.json: is shard 1 of 2, and so is", "shard_1_of_2.json; remove one of them"});
-}
-
-TEST_F(StudyShards, AreRefusedIfTheyAreOfAnotherVersionOrHaveOtherOptions) {
-  shard("2/2", {"--seed", "5", "--output", (folder_ / "out").string()});
-  expectRefused({"shard_2_of_2.json: plan.seed is 5 here and 1 in ", "shard_1_of_2.json"});
-  shard("2/2", {"--ambient", "90000", "--output", (folder_ / "out").string()});
-  expectRefused({"shard_2_of_2.json: --ambient is 90000 here and not given in "});
-  fs::copy_file(shards_ / "shard_2_of_2.json", path("shard_2_of_2.json"),
-                fs::copy_options::overwrite_existing);
-  edit("shard_2_of_2.json", "\"version\": \"", "\"version\": \"9");
-  expectRefused({"shard_2_of_2.json: the version is 9"});
-}
-
 TEST_F(StudyShards, AreRefusedIfTheyReadOtherBags) {
   record(61);
   shard("2/2", {"--output", (folder_ / "out").string()});
   expectRefused(
       {"shard_2_of_2.json: recording 1 is session.bag (SHA-256 ", "here and session.bag (SHA-256 "});
-}
-
-TEST_F(StudyShards, AreRefusedIfAFileIsDamaged) {
-  edit("pieces_1_of_2.json", "\"id\":\"", "\"id\":\"x");
-  expectRefused({"pieces_1_of_2.json: is not the file that ", "shard_1_of_2.json says (SHA-256 "});
-  fs::remove(path("pieces_1_of_2.json"));
-  expectRefused({"pieces_1_of_2.json: is missing, but "});
-  fs::resize_file(path("shard_1_of_2.json"), 30);
-  expectRefused({"shard_1_of_2.json: cannot be read as the file of a shard"});
 }
 
 // The file of the second shard names the pieces of the first.

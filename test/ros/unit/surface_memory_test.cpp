@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "support/folder_test.h"
 
 namespace fsr_ros {
 namespace {
@@ -16,17 +16,9 @@ namespace fs = std::filesystem;
 const LaidOn kFlat{"flat", 1};
 const LaidOn kCylinder{"cylinder_7cm", 2};
 
-class SurfaceMemoryTest : public testing::Test {
+class SurfaceMemoryTest : public test_support::FolderTest {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "surface_memory_XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder = name;
-    path = name + "/new/surface.yaml";
-  }
-  void TearDown() override { fs::remove_all(folder); }
-
-  std::string folder, path;
+  const std::string path = folder_ / "new" / "surface.yaml";
 };
 
 TEST_F(SurfaceMemoryTest, ANodeThatWasToldNothingTakesTheLaunchFiles) {
@@ -62,7 +54,7 @@ TEST_F(SurfaceMemoryTest, AnotherLaunchIsBelievedAndTheConflictSaid) {
 }
 
 TEST_F(SurfaceMemoryTest, NothingButASurfaceMemoryIsReplaced) {
-  const std::string bag = folder + "/recording.bag";
+  const std::string bag = folder_ / "recording.bag";
   std::ofstream(bag) << "#ROSBAG V2.0\nprecious";
   SurfaceMemory memory(bag, kFlat);
   EXPECT_NE(memory.remark().find(bag), std::string::npos) << memory.remark();

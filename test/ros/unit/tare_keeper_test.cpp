@@ -2,24 +2,20 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "support/folder_test.h"
 
 namespace fsr_ros {
 namespace {
 
 namespace fs = std::filesystem;
 
-class TareKeeperTest : public testing::Test {
+class TareKeeperTest : public test_support::FolderTest {
  protected:
   void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "tare_keeper_XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder = name;
-    path = name + "/new/folder/tare.yaml";
     tare.calibration = "id";
     tare.surface = "flat";
     tare.mount = 3;
@@ -28,9 +24,8 @@ class TareKeeperTest : public testing::Test {
     flat = {"flat", 3, {{}}, {}};
     TareKeeper::write(tare, path);
   }
-  void TearDown() override { fs::remove_all(folder); }
 
-  std::string folder, path;
+  const std::string path = folder_ / "new" / "folder" / "tare.yaml";
   fsr::calibration::Tare tare;
   fsr::matrix::Surface flat;
 };
@@ -94,14 +89,14 @@ TEST_F(TareKeeperTest, LeavesADamagedFileAlone) {
 }
 
 TEST_F(TareKeeperTest, RemovesNothingButATare) {
-  const std::string bag = folder + "/recording.bag";
+  const std::string bag = folder_ / "recording.bag";
   std::ofstream(bag) << "precious";
   EXPECT_THROW(TareKeeper::remove(bag), fsr::settings::InputError);
   EXPECT_THROW(TareKeeper::write(tare, bag), fsr::settings::InputError);
   EXPECT_EQ(fs::file_size(bag), 8u);
-  fs::create_directory(folder + "/empty");
-  EXPECT_THROW(TareKeeper::remove(folder + "/empty"), fsr::settings::InputError);
-  EXPECT_TRUE(fs::exists(folder + "/empty"));
+  fs::create_directory(folder_ / "empty");
+  EXPECT_THROW(TareKeeper::remove(folder_ / "empty"), fsr::settings::InputError);
+  EXPECT_TRUE(fs::exists(folder_ / "empty"));
 }
 
 TEST_F(TareKeeperTest, RemovesADamagedTare) {

@@ -19,6 +19,7 @@
 #include "support/pty.h"
 #include "support/source_dir.h"
 #include "support/synthetic_recording.h"
+#include "support/tool_run.h"
 
 namespace fsr_ros {
 namespace {
@@ -59,18 +60,11 @@ class ToolDamage : public testing::Test {
   }
 
   // Runs a tool on the bag. Returns its sentence, or "" if it read the bag.
-  std::string said(Tool tool, std::vector<std::string> words) const {
-    words.insert(words.begin(), "tool");
-    std::vector<const char*> arguments;
-    for (const std::string& word : words) arguments.push_back(word.c_str());
-    std::ostringstream out;
+  std::string said(Tool tool, const std::vector<std::string>& words) const {
     try {
-      tool(static_cast<int>(arguments.size()), arguments.data(), out);
-      return "";
-    } catch (const fsr::settings::InputError& error) {
-      return error.what();
+      return test_support::runTool(tool, "tool", words).error;
     } catch (const std::exception& error) {
-      ADD_FAILURE() << words[1] << " " << words.back() << ": " << error.what();
+      ADD_FAILURE() << words.front() << " " << words.back() << ": " << error.what();
       return error.what();
     }
   }

@@ -1,7 +1,5 @@
 #include "ros/tools/tools.h"
 
-#include <unistd.h>
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,6 +14,8 @@
 #include "ros/bags/bag_writer.h"
 #include "ros/tools/map_gain.h"
 #include "support/example_discrepancy.h"
+#include "support/folder_test.h"
+#include "support/holds.h"
 #include "support/memory_rig.h"
 #include "support/mounted_day.h"
 #include "support/squeezed.h"
@@ -27,17 +27,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class TrainTool : public testing::Test {
+class TrainTool : public test_support::FolderTest {
  protected:
-  void SetUp() override {
-    const auto* const test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ =
-        fs::path(testing::TempDir()) / ("train_tool_" + std::to_string(::getpid()) + "_" + test->name());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-    bend_ = record("bend.bag", {"cylinder_7cm", 14.25});
-  }
-  void TearDown() override { fs::remove_all(folder_); }
+  void SetUp() override { bend_ = record("bend.bag", {"cylinder_7cm", 14.25}); }
 
   std::string record(const std::string& name, const test_support::SyntheticSurface& surface) const {
     test_support::SyntheticRig rig;
@@ -55,7 +47,6 @@ class TrainTool : public testing::Test {
     return run.said();
   }
 
-  fs::path folder_;
   std::string bend_;
 };
 
@@ -135,9 +126,8 @@ TEST_F(TrainTool, FitsOnAScreenAndEndsWithWhatTheMapIsGoodFor) {
   const std::string json{std::istreambuf_iterator<char>(file), {}};
   EXPECT_NE(json.find("\"good_for\": \"Good for: not known on a new mount"), std::string::npos);
   const std::string checked = run({"--check", output, flat, bend_});
-  EXPECT_NE(checked.find("\nGood for: 68 % of the readings of these bags err by at most "), std::string::npos)
-      << checked;
-  EXPECT_NE(checked.find("; worst bag: "), std::string::npos) << checked;
+  EXPECT_TRUE(test_support::holds(
+      checked, {"\nGood for: 68 % of the readings of these bags err by at most ", "; worst bag: "}));
 }
 
 TEST_F(TrainTool, TrainsEverySchemeByItsName) {
@@ -145,8 +135,7 @@ TEST_F(TrainTool, TrainsEverySchemeByItsName) {
   const std::string output = (folder_ / "calibration.h5").string();
   for (const std::string& scheme : fsr::compensation::schemeNames()) {
     const std::string text = run({flat, bend_, "--scheme", scheme, "--bandwidth", "0.1", "--output", output});
-    EXPECT_NE(text.find(" (" + scheme + ", grnn, bandwidth 0.1) written to " + output), std::string::npos)
-        << text;
+    EXPECT_TRUE(test_support::holds(text, {" (" + scheme + ", grnn, bandwidth 0.1) written to " + output}));
     EXPECT_EQ(fsr::compensation::schemeName(fsr::calibration::loadCalibration(output).tables.scheme), scheme);
   }
 }
@@ -192,9 +181,8 @@ TEST_F(TrainTool, TakesTheTemperatureOut) {
   const std::string bag = (folder_ / "warm.bag").string(), output = (folder_ / "c.h5").string();
   writeBag(bag, recording);
   const std::string text = run({bag, "--output", output, "--details"});
-  EXPECT_NE(text.find("Temperature: -0.4"), std::string::npos) << text;
-  EXPECT_NE(text.find(" % a kelvin with a lag of 0 s; it wins"), std::string::npos) << text;
-  EXPECT_NE(text.find("without temperature"), std::string::npos) << text;
+  EXPECT_TRUE(test_support::holds(
+      text, {"Temperature: -0.4", " % a kelvin with a lag of 0 s; it wins", "without temperature"}));
   EXPECT_TRUE(fsr::calibration::loadCalibration(output).temperature.present());
   const std::string checked = run({"--check", output, bag});
   EXPECT_NE(checked.find("Still good."), std::string::npos) << checked;
@@ -206,8 +194,8 @@ TEST_F(TrainTool, TakesTheTemperatureOut) {
   }
   run({bag, "--output", output, "--history", "none", "--temperature", "auto"});
   EXPECT_TRUE(fsr::calibration::loadCalibration(output).temperature.present());
-  EXPECT_NE(run({bag, "--output", output, "--temperature", "warm"}).find("must be one of auto, none"),
-            std::string::npos);
+  EXPECT_TRUE(
+      test_support::holds(run({bag, "--output", output, "--temperature", "warm"}), {"must be one of auto, none"}));
 }
 
 // A sheet with a loop, recorded with two paces, dwells and peaks.
@@ -228,23 +216,20 @@ TEST_F(TrainTool, TakesTheSheetsMemoryOut) {
   };
   const std::string automatic = chosen({});
   EXPECT_EQ(automatic.find("History: "), 0u) << automatic;
-  EXPECT_NE(automatic.find("the best on protocols that were left out."), std::string::npos) << automatic;
-  EXPECT_NE(automatic.find("unloading"), std::string::npos) << automatic;
+  EXPECT_TRUE(test_support::holds(automatic, {"the best on protocols that were left out.", "unloading"}));
   EXPECT_TRUE(fsr::calibration::loadCalibration(output).history.present());
   EXPECT_EQ(chosen({"--history", "memories"}).find("History: memories, as asked for"), 0u);
   EXPECT_EQ(chosen({"--history", "none"}), "");
   EXPECT_FALSE(fsr::calibration::loadCalibration(output).history.present());
-  EXPECT_NE(
-      run({bag, "--output", output, "--history", "loop"}).find("--history is \"loop\", but must be auto"),
-      std::string::npos);
-  EXPECT_NE(run({bend_, "--output", output, "--history", "plays"}).find("record cycles with two paces"),
-            std::string::npos);
+  EXPECT_TRUE(test_support::holds(run({bag, "--output", output, "--history", "loop"}),
+                                  {"--history is \"loop\", but must be auto"}));
+  EXPECT_TRUE(test_support::holds(run({bend_, "--output", output, "--history", "plays"}),
+                                  {"record cycles with two paces"}));
 
   fsr::discrepancy::DiscrepancyReport report = test_support::exampleDiscrepancy();
   std::ofstream(verdict) << fsr::report::verdictText(report);
   const std::string proposed = chosen({"--history", verdict});
-  EXPECT_NE(proposed.find("as proposed; it wins on protocols that were left out."), std::string::npos)
-      << proposed;
+  EXPECT_TRUE(test_support::holds(proposed, {"as proposed; it wins on protocols that were left out."}));
 }
 
 // Sheets with an offset of each taxel that changes from session to session.
@@ -261,14 +246,14 @@ TEST_F(TrainTool, ExpectsATareAtTheStartOfASession) {
   words.back() = "--history=none";
   words.insert(words.end(), {"--output", output, "--report", report, "--details"});
   const std::string text = run(words);
-  EXPECT_NE(text.find("Tare at the start of a session: expected, since it takes "), std::string::npos)
-      << text;
-  EXPECT_NE(text.find("\nsession_3.bag, flat, mount 1 "), std::string::npos) << text;
+  EXPECT_TRUE(test_support::holds(
+      text, {"Tare at the start of a session: expected, since it takes ",
+             "\nsession_3.bag, flat, mount 1 "}));
   std::ifstream file(report);
   const std::string json{std::istreambuf_iterator<char>(file), {}};
   EXPECT_NE(json.find("\"tare_expected\": true"), std::string::npos);
-  EXPECT_NE(run({"--check", output, fresh}).find("Note: each session is checked with a tare at its start"),
-            std::string::npos);
+  EXPECT_TRUE(test_support::holds(run({"--check", output, fresh}),
+                                  {"Note: each session is checked with a tare at its start"}));
   words.insert(words.end(), {"--zero", "none"});
   EXPECT_EQ(run(words).find("Tare at the start"), std::string::npos);
   EXPECT_FALSE(fsr::calibration::loadCalibration(output).session_zero.expected());
@@ -305,8 +290,7 @@ TEST_F(TrainTool, MergesCalibrations) {
   run({bend_, "--output", b});
   run({flat, bend_, "--output", whole});
   const std::string text = run({"--merge", a, b, "--output", merged, "--threads", "1"});
-  EXPECT_NE(text.find("A merged calibration has no scores"), std::string::npos) << text;
-  EXPECT_NE(text.find(" written to " + merged), std::string::npos) << text;
+  EXPECT_TRUE(test_support::holds(text, {"A merged calibration has no scores", " written to " + merged}));
   const fsr::compensation::CurvatureTables one = fsr::calibration::loadCalibration(merged).tables;
   const fsr::compensation::CurvatureTables other = fsr::calibration::loadCalibration(whole).tables;
   ASSERT_EQ(one.tables.size(), other.tables.size());

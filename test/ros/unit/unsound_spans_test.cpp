@@ -2,7 +2,6 @@
 #include <fsr_pressure_map/Event.h>
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -15,8 +14,11 @@
 #include "ros/bags/bag_writer.h"
 #include "ros/tools/tools.h"
 #include "simulation/settings_text.h"
+#include "support/folder_test.h"
+#include "support/holds.h"
 #include "support/source_dir.h"
 #include "support/synthetic_recording.h"
+#include "support/tool_run.h"
 
 namespace fsr_ros {
 namespace {
@@ -25,22 +27,16 @@ namespace fs = std::filesystem;
 
 constexpr std::int64_t kStart = 1500000000000000000;  // [ns]
 
-class UnsoundSpans : public testing::Test {
+class UnsoundSpans : public test_support::FolderTest {
  protected:
   void SetUp() override {
-    const auto* const test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path(testing::TempDir()) / ("unsound_" + std::to_string(::getpid()) + "_" + test->name());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
     ::setenv("ROS_HOME", folder_.c_str(), 1);
     test_support::SyntheticRig rig;  // cycles of 10 s, 100 scans each
     rig.surfaces = {{"flat", 0.0}, {"cylinder_13cm", 7.7}, {"cylinder_5cm", 20.0}};
     recording_ = test_support::syntheticRecording(rig);
     recording_.start_ns = kStart;
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
   // No taxel reads anything from scan `first` to `last`.
   void takeTheSheetOff(std::size_t first, std::size_t last) {
     const auto taxels = static_cast<std::ptrdiff_t>(recording_.layout.size.taxels());
@@ -62,15 +58,13 @@ class UnsoundSpans : public testing::Test {
         {discrepancyTool,
          {"discrepancy", bag, "--simulation", path("small.yaml"), "--output", path("gap"), "--no-report"}}};
     for (const auto& [tool, words] : calls) {
-      std::vector<const char*> arguments;
-      for (const std::string& word : words) arguments.push_back(word.c_str());
-      std::ostringstream out;
-      EXPECT_EQ(tool(static_cast<int>(arguments.size()), arguments.data(), out), 0);
-      EXPECT_NE(out.str().find(sentence), std::string::npos) << words[0] << " said:\n" << out.str();
+      const test_support::ToolRun run =
+          test_support::runTool(tool, words[0], {words.begin() + 1, words.end()});
+      EXPECT_EQ(run.status, 0);
+      EXPECT_TRUE(test_support::holds(run.printed, {sentence})) << words[0];
     }
   }
 
-  fs::path folder_;
   fsr::dataset::Recording recording_;
 };
 
