@@ -401,9 +401,8 @@ void Calibrator::Impl::correctHistory(double time, map::PressureMap& out) noexce
     const HistoryAnswer answer = history_->correct(i, frozen != 0, out.pressure[i], out.deviation[i]);
     if (answer != HistoryAnswer::kNoReading && isBlended(i))
       out.deviation[i] = std::hypot(out.deviation[i], beyondClass(i, before));
-    out.flags[i] =
-        static_cast<std::uint16_t>(out.flags[i] | flagWhere(answer != HistoryAnswer::kSettled,
-                                                        map::taxel_flag::kHistoryShort));
+    out.flags[i] = static_cast<std::uint16_t>(
+        out.flags[i] | flagWhere(answer != HistoryAnswer::kSettled, map::taxel_flag::kHistoryShort));
   }
 }
 

@@ -305,8 +305,8 @@ void judgeTaxels(const Calibration& calibration, const MapLimits& limits, MapErr
 }
 
 std::string memoryNotShown(const Calibration& calibration, double not_settled) {
-  std::string text = "the sheet's memory: " + settings::percentText(not_settled) +
-                     " of the readings were not settled";
+  std::string text =
+      "the sheet's memory: " + settings::percentText(not_settled) + " of the readings were not settled";
   const std::vector<HistoryScore::Part>& parts = calibration.scores.history.parts;
   if (!parts.empty()) {
     text += ", so that the RMSE that training found with it on left-out protocols (" +

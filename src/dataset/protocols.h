@@ -43,12 +43,12 @@ struct Protocols {
 
   std::vector<std::string> names;                   ///< e.g. "ramps of 17 kPa/s, dwells of 2 s"
   std::vector<std::vector<std::uint32_t>> of_scan;  ///< [recordings][scans], index into `names` or kOther
-  /// The number of the scan's part of its protocol. Parts 2 n and 2 n + 1 are loading and unloading of the same
-  /// cycles; more cycles than kMostCycles share their parts with their neighbours. Empty = one part.
+  /// The number of the scan's part of its protocol. Parts 2 n and 2 n + 1 are loading and unloading of the
+  /// same cycles; more cycles than kMostCycles share their parts with their neighbours. Empty = one part.
   std::vector<std::vector<std::uint8_t>> part_of_scan;
-  double longest_hold = 0;                          ///< longest time at constant pressure [s]
-  double lowest = 0;                                ///< smallest pressure [Pa]
-  double highest = 0;                               ///< largest pressure [Pa]
+  double longest_hold = 0;  ///< longest time at constant pressure [s]
+  double lowest = 0;        ///< smallest pressure [Pa]
+  double highest = 0;       ///< largest pressure [Pa]
   static constexpr std::size_t kMostCycles = 12;
 };
 

@@ -60,8 +60,8 @@ struct ClassChoice {
 ///                           sheet at all
 ///   kTared                  an offset was subtracted
 ///   kHistoryShort           the calibration has a model of the sheet's memory, and what is not known of the
-///                           load before (start, gap, time that ran back, another curvature) more than doubles
-///                           the deviation; or the reading is saturated: static answer and deviation
+///                           load before (start, gap, time that ran back, another curvature) more than
+///                           doubles the deviation; or the reading is saturated: static answer and deviation
 ///
 /// State of the map is the first of these that applies: kSizeMismatch (rows, columns or full scale differ
 /// from the calibration's), kWrongSensor, kCurvatureUnknown, kCurvatureStale, kOk. A baseline calibration

@@ -42,9 +42,9 @@ struct HistoryModel {
   std::vector<double> play_weight;
   std::vector<double> time_constant;  ///< of the memories, above 0 [s]
   std::vector<double> memory_weight;
-  /// Of each memory: root mean square of its distance from x in training [Pa]. It is the deviation of a memory
-  /// of which nothing is known. Empty, as in files of earlier versions: that of inputs evenly between the
-  /// knots.
+  /// Of each memory: root mean square of its distance from x in training [Pa]. It is the deviation of a
+  /// memory of which nothing is known. Empty, as in files of earlier versions: that of inputs evenly between
+  /// the knots.
   std::vector<double> memory_spread;
   /// Of a reading of a protocol that training left out, by pressure, constant beyond the knots: where the
   /// sheet is being loaded, and where it is being unloaded. It is being unloaded where the first operator, a

@@ -31,7 +31,8 @@ constexpr std::uint16_t kLineFault = 256;
 constexpr std::uint16_t kTared = 512;
 constexpr std::uint16_t kBelowRange = 1024;
 constexpr std::uint16_t kTemperatureExtrapolated = 2048;
-constexpr std::uint16_t kHistoryShort = 4096;  ///< what is not known of the load before more than doubles the deviation
+constexpr std::uint16_t kHistoryShort =
+    4096;  ///< what is not known of the load before more than doubles the deviation
 }  // namespace taxel_flag
 
 /// Whether the pressure of a taxel with these flags is at least its reading: at full scale, or a code above

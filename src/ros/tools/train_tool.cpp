@@ -45,9 +45,10 @@ fsr::settings::CommandLine trainOptions() {
               "model of the sheet's memory: auto (chosen on protocols that were left out), none, plays (a "
               "loop), memories (creep), both, or a verdict.yaml whose named effect is tried first; default "
               "auto")
-      .option("zero", "NAME",
-              "tare at rest at the start of a session: auto (expected unless sessions that were left out speak "
-              "against it), none, session (expected in any case); default auto")
+      .option(
+          "zero", "NAME",
+          "tare at rest at the start of a session: auto (expected unless sessions that were left out speak "
+          "against it), none, session (expected in any case); default auto")
       .option(
           "temperature", "NAME",
           "factor for the temperature of the sheet, with a lag: auto (with a thermometer, where it wins on "

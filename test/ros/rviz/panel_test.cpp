@@ -510,8 +510,7 @@ TEST_F(Panel, SaysThatTheHistoryIsNotSettledAndOfWhatACalibrationIsACorrection) 
     infos.publish(info);
     return label("Calibration") == "per_curvature, 0123456789ab" + words;
   };
-  EXPECT_TRUE(runUntil([&] { return shown(", history not settled"); }))
-      << label("Calibration");
+  EXPECT_TRUE(runUntil([&] { return shown(", history not settled"); })) << label("Calibration");
   map.flags = {0, 0, fsr_pressure_map::PressureMap::FLAG_HISTORY_SHORT, 0};
   EXPECT_TRUE(runUntil([&] { return shown(", history not settled on 25 % of taxels"); }))
       << label("Calibration");

@@ -256,9 +256,7 @@ TEST_F(Rviz, A6SaysThatASurfaceIsOfAnotherMatrix) {
 TEST_F(Rviz, A7SaysThatTheHistoryIsNotSettled) {
   PressureMap settling = *map;
   settling.flags.assign(settling.flags.size(), PressureMap::FLAG_HISTORY_SHORT);
-  const auto shown = [&] {
-    return maps.publish(settling), says("History", "history not settled");
-  };
+  const auto shown = [&] { return maps.publish(settling), says("History", "history not settled"); };
   EXPECT_TRUE(runUntil(shown, false)) << status("History");
   EXPECT_EQ(status("Taxels"), "all readings are within range");  // no marks
   EXPECT_TRUE(runUntil([] { return status("History").empty(); })) << status("History");

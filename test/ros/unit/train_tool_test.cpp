@@ -194,8 +194,8 @@ TEST_F(TrainTool, TakesTheTemperatureOut) {
   }
   run({bag, "--output", output, "--history", "none", "--temperature", "auto"});
   EXPECT_TRUE(fsr::calibration::loadCalibration(output).temperature.present());
-  EXPECT_TRUE(
-      test_support::holds(run({bag, "--output", output, "--temperature", "warm"}), {"must be one of auto, none"}));
+  EXPECT_TRUE(test_support::holds(run({bag, "--output", output, "--temperature", "warm"}),
+                                  {"must be one of auto, none"}));
 }
 
 // A sheet with a loop, recorded with two paces, dwells and peaks.
@@ -246,9 +246,8 @@ TEST_F(TrainTool, ExpectsATareAtTheStartOfASession) {
   words.back() = "--history=none";
   words.insert(words.end(), {"--output", output, "--report", report, "--details"});
   const std::string text = run(words);
-  EXPECT_TRUE(test_support::holds(
-      text, {"Tare at the start of a session: expected, since it takes ",
-             "\nsession_3.bag, flat, mount 1 "}));
+  EXPECT_TRUE(test_support::holds(text, {"Tare at the start of a session: expected, since it takes ",
+                                         "\nsession_3.bag, flat, mount 1 "}));
   std::ifstream file(report);
   const std::string json{std::istreambuf_iterator<char>(file), {}};
   EXPECT_NE(json.find("\"tare_expected\": true"), std::string::npos);
