@@ -155,10 +155,8 @@ TEST(MapErrorsOfMemory, StatesPartsAndWhatWasNotSettled) {
     return fsr::calibration::HistoryScore::Part{};
   };
   EXPECT_DOUBLE_EQ(part("all readings").rmse, check.whole.rmse);
-  const fsr::calibration::HistoryScore::Part start = part("not settled");
-  EXPECT_EQ(part("loading").readings + part("unloading").readings + start.readings,
-            part("all readings").readings);
-  EXPECT_GT(start.readings, 0u);
+  EXPECT_EQ(part("loading").readings + part("unloading").readings, part("all readings").readings)
+      << "a bag that begins at rest is settled at once";
   EXPECT_LT(part("unloading").rmse, 0.5 * part("unloading").static_rmse);
   EXPECT_LT(part("ramps of 35").rmse, 10e3);
 }
@@ -168,7 +166,7 @@ TEST(MapErrorsOfMemory, SaysWhichPromiseItCannotSee) {
   const fsr::calibration::Calibration calibration = trained({test_support::memoryRecording(loopRig())});
   EXPECT_TRUE(errorsOfMap(calibration, {another()}).not_shown.empty());
   Recording held = another();
-  const std::size_t scans = 40;  // from 6 s on: 120 to 200 kPa of 600
+  const std::size_t scans = 8;  // from 6 s on: 120 to 136 kPa of 600
   held.time.assign(held.time.begin() + 60, held.time.begin() + 60 + scans);
   held.pressure.assign(held.pressure.begin() + 60, held.pressure.begin() + 60 + scans);
   held.condition.assign(held.condition.begin() + 60, held.condition.begin() + 60 + scans);
@@ -177,11 +175,12 @@ TEST(MapErrorsOfMemory, SaysWhichPromiseItCannotSee) {
   held.counts = counts;
   const MapErrors check = errorsOfMap(calibration, {held});
   ASSERT_EQ(check.not_shown.size(), 2u);
-  EXPECT_EQ(check.whole.not_settled, 1);
-  EXPECT_EQ(check.not_shown[0].find("the sheet's memory: 100.0 % of the readings were not settled, so "
-                                    "that the RMSE that training found with it"),
-            0u)
+  EXPECT_GT(check.whole.not_settled, 0.5);
+  EXPECT_NE(check.not_shown[0].find(" of the readings were not settled, so that the RMSE that training found "
+                                    "with it"),
+            std::string::npos)
       << check.not_shown[0];
+  EXPECT_EQ(check.history[1].name, "not settled");
   EXPECT_EQ(check.not_shown[1].find("pressures of "), 0u) << check.not_shown[1];
 }
 

@@ -21,10 +21,6 @@ std::string historyName(HistoryFamily family);
 /// Throws InputError that lists the names.
 HistoryFamily historyFromName(const std::string& name);
 
-/// Time after which memories no longer depend on what was before: three of the longest time constant [s]; 0
-/// without memories.
-double settlingTime(const std::vector<double>& time_constants);
-
 /// The part of the pressure that depends on earlier readings, the same for all taxels:
 ///
 ///     p = x + c(x) + sum_j w_j (play_{r_j}(x) - x) + sum_k v_k (ema_{tau_k}(x) - x)

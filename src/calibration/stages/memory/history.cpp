@@ -10,7 +10,6 @@ namespace fsr::calibration {
 namespace {
 
 constexpr std::array<const char*, 4> kNames = {"none", "plays", "memories", "both"};
-constexpr double kSettled = 3;  // time constants; e^-3 = 5 % of a step is left
 
 }  // namespace
 
@@ -23,11 +22,6 @@ HistoryFamily historyFromName(const std::string& name) {
   if (place == kNames.end())
     throw settings::InputError("history \"" + name + "\" is unknown; use none, plays, memories or both");
   return static_cast<HistoryFamily>(place - kNames.begin());
-}
-
-double settlingTime(const std::vector<double>& time_constants) {
-  if (time_constants.empty()) return 0;
-  return kSettled * *std::max_element(time_constants.begin(), time_constants.end());
 }
 
 double HistoryModel::smallestDeviation() const {

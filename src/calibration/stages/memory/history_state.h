@@ -91,7 +91,11 @@ class HistoryOperators {
                rheology::playStep(to, radii_[j], state[j] + open[j])},
               state[j], open[j]);
     advanceMemories(from, to, steps, state);
-    for (std::size_t k = 0; k < memories_.size(); ++k) open[radii_.size() + k] *= 1 - steps[k].fade;
+    for (std::size_t k = 0; k < memories_.size(); ++k) {
+      double& share = open[radii_.size() + k];
+      share *= 1 - steps[k].fade;
+      if (share < kNothing) share = 0;  // a smaller number would be slow to compute with
+    }
   }
 
   /// The same over a spell in which the input was not seen. It came from `limit` or more to `to`; -infinity =
@@ -106,6 +110,7 @@ class HistoryOperators {
   }
 
   static constexpr double kNone = std::numeric_limits<double>::infinity();
+  static constexpr double kNothing = 1e-12;  // share of a memory
 
  private:
   struct Span {
