@@ -135,10 +135,9 @@ void historyMembers(hdf5::Members& file, HistoryModel& model) {
 void sessionMembers(hdf5::Members& file, SessionZero& zero, std::size_t tables) {
   if (!file.group("/session", zero.expected() || !zero.at_rest.empty())) return;
   file.attribute("tare", zero.tare, kTares);
-  file.note(
-      "meaning",
-      "whether a tare is due at rest at the start of a session (one surface and mount); RMSE on sessions "
-      "that were left out, without and with it, NaN = none was left out");
+  file.note("meaning",
+            "a tare is due at rest at the start of a session (one surface and mount); RMSE on sessions "
+            "that were left out, without and with it");
   file.attribute("rmse_without", zero.rmse_without);
   file.attribute("rmse", zero.rmse);
   file.note("unit", "Pa");

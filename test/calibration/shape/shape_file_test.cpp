@@ -19,7 +19,6 @@
 namespace fsr::calibration {
 namespace {
 
-using ShapeModel;
 
 class ShapeFile : public testing::Test {
  protected:

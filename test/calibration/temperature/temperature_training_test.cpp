@@ -24,7 +24,6 @@
 namespace fsr::calibration {
 namespace {
 
-using HistoryFamily;
 using Recordings = std::vector<dataset::Recording>;
 
 // A straight sensor, three taxels. Its readings are those of the simulator; the chamber runs two paces,

@@ -216,7 +216,7 @@ TEST_F(TrainTool, TakesTheSheetsMemoryOut) {
   };
   const std::string automatic = chosen({});
   EXPECT_EQ(automatic.find("History: "), 0u) << automatic;
-  EXPECT_TRUE(test_support::holds(automatic, {"the best on protocols that were left out.", "unloading"}));
+  EXPECT_TRUE(test_support::holds(automatic, {"on protocols that were left out.", "unloading"}));
   EXPECT_TRUE(fsr::calibration::loadCalibration(output).history.present());
   EXPECT_EQ(chosen({"--history", "memories"}).find("History: memories, as asked for"), 0u);
   EXPECT_EQ(chosen({"--history", "none"}), "");
@@ -229,7 +229,7 @@ TEST_F(TrainTool, TakesTheSheetsMemoryOut) {
   fsr::discrepancy::DiscrepancyReport report = test_support::exampleDiscrepancy();
   std::ofstream(verdict) << fsr::report::verdictText(report);
   const std::string proposed = chosen({"--history", verdict});
-  EXPECT_TRUE(test_support::holds(proposed, {"as proposed; it wins on protocols that were left out."}));
+  EXPECT_TRUE(test_support::holds(proposed, {"as proposed; the error falls by "}));
 }
 
 // Sheets with an offset of each taxel that changes from session to session.
