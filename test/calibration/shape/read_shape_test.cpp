@@ -42,7 +42,7 @@ class ReadShape : public testing::Test {
     return "accepted";
   }
 
-  const PlantedShape sheet_;
+  const PlantedShape sheet_{};
   const ShapeModel model_ = test_support::learnPlanted(sheet_);
   const ShapeReader reader_{model_};
   std::mt19937 random_{7};
