@@ -101,6 +101,7 @@ class Checker {
   Checker(const Calibration& calibration, const std::vector<Recording>& recordings)
       : calibration_(calibration), static_(calibration), taxels_(calibration.layout.size.taxels()) {
     static_.history = {};
+    for (const Recording& recording : recordings) bags_.push_back({recording.name, {}});
     if (!calibration.history.present()) return;
     for (const Recording& recording : recordings)
       sections_.push_back(dataset::divideIntoSections(recording, calibration.folds));
@@ -108,36 +109,40 @@ class Checker {
     parts_.resize(kFirstProtocol + protocols_.names.size());
   }
 
-  void take(const Recording& recording) {
-    const std::size_t number = bags_.size();
-    bags_.push_back({recording.name, {}});
-    std::deque<LiveMap> maps;  // a calibrator does not move
-    maps.emplace_back(calibration_, true);
-    if (calibration_.history.present()) maps.emplace_back(static_, true);
-    if (calibration_.session_zero.expected()) maps.emplace_back(calibration_, false);
-    for (LiveMap& one : maps) one.calibrator.setMask(recording.mask);
+  /// `lies_on`: the live maps of the recording before go on, see dataset::sheetLayOn().
+  void take(const Recording& recording, std::size_t number, bool lies_on) {
+    number_ = number;
+    if (!lies_on) {
+      first_ns_ = recording.start_ns;
+      maps_.clear();
+      maps_.emplace_back(calibration_, true);
+      if (calibration_.history.present()) maps_.emplace_back(static_, true);
+      if (calibration_.session_zero.expected()) maps_.emplace_back(calibration_, false);
+    }
+    const double start = double(recording.start_ns - first_ns_) * 1e-9;
+    for (LiveMap& one : maps_) one.calibrator.setMask(recording.mask);
     std::size_t surface = recording.conditions.size();
     double turned = 0;  // when the chamber last changed its direction
     dataset::ScanCounts counts(recording);
     for (std::size_t i = 0; i < recording.scans(); ++i) {
       const bool moved = recording.condition[i] != surface;
       surface = recording.condition[i];
-      if (moved) setSurface(recording, i, maps);
+      if (moved && (i > 0 || !lies_on)) setSurface(recording, i);
       const matrix::ScanView scan{recording.layout.size, recording.full_scale, counts[i], taxels_.size()};
-      for (LiveMap& one : maps) {
+      for (LiveMap& one : maps_) {
         calibration::setTemperatureOf(recording, i, calibration_, one.calibrator);
-        one.calibrator.calibrate(scan, recording.time[i], one.map);
+        one.calibrator.calibrate(scan, start + recording.time[i], one.map);
       }
-      add(scan.counts, recording.pressure[i], maps.front(), surfaces_[recording.conditions[surface].name]);
-      if (calibration_.session_zero.expected()) addUntared(scan.counts, recording.pressure[i], maps.back());
+      add(scan.counts, recording.pressure[i], maps_.front(), surfaces_[recording.conditions[surface].name]);
+      if (calibration_.session_zero.expected()) addUntared(scan.counts, recording.pressure[i], maps_.back());
       if (!calibration_.history.present()) continue;
       const dataset::Sections& sections = sections_[number];
       if (i == 0 || moved || sections.direction[i] != sections.direction[i - 1]) turned = recording.time[i];
-      addParts(scan.counts, recording.pressure[i], maps[0], maps[1],
+      addParts(scan.counts, recording.pressure[i], maps_[0], maps_[1],
                calibration::historyPartsOf(sections.direction[i], recording.time[i] - turned),
                protocols_.of_scan[number][i]);
     }
-    noteFailed(maps.front().calibrator.watch().flags());
+    noteFailed(maps_.front().calibrator.watch().flags());
   }
 
   MapErrors result(const MapLimits& limits) const {
@@ -153,15 +158,15 @@ class Checker {
       if (sums.readings >= kLeastReadings && sums.rmse() > limits.taxel_ratio * sums.expectedRmse())
         errors.suspicious.push_back(i);
     }
-    errors.dead = dead_;
-    errors.stuck = stuck_;
+    errors.dead.assign(dead_.begin(), dead_.end());
+    errors.stuck.assign(stuck_.begin(), stuck_.end());
     for (std::size_t part = 0; part < parts_.size(); ++part) addPart(part, errors.history);
     noteTare(errors);
     return errors;
   }
 
  private:
-  void setSurface(const Recording& recording, std::size_t scan, std::deque<LiveMap>& maps) {
+  void setSurface(const Recording& recording, std::size_t scan) {
     const std::size_t condition = recording.condition[scan];
     const matrix::Surface& surface = recording.conditions[condition];
     if (surfaces_.try_emplace(surface.name).second) order_.push_back(surface.name);
@@ -172,8 +177,9 @@ class Checker {
         not_tared_.insert(recording.name + ", " + surface.name + ": not tared, because " +
                           calibration::whyNoRest(recording, condition));
     }
-    for (LiveMap& one : maps) {
-      one.calibrator.setSurface(surface, recording.time[scan]);
+    for (LiveMap& one : maps_) {
+      one.calibrator.setSurface(surface,
+                                double(recording.start_ns - first_ns_) * 1e-9 + recording.time[scan]);
       if (!one.tared) continue;
       one.calibrator.setTare(offset);
       if (!offset.empty()) one.calibrator.markRest();
@@ -184,7 +190,7 @@ class Checker {
     for (std::size_t i = 0; i < taxels_.size(); ++i) {
       if (!live.hasValue(i, counts[i])) continue;
       const double error = live.map.pressure[i] - pressure;
-      for (Sums* sums : {&whole_, &surface, &bags_.back().second, &taxels_[i]})
+      for (Sums* sums : {&whole_, &surface, &bags_[number_].second, &taxels_[i]})
         sums->add(error, live.map.deviation[i], live.map.flags[i]);
       sizes_.add(static_cast<float>(error));
     }
@@ -232,8 +238,8 @@ class Checker {
 
   void noteFailed(const std::vector<std::uint16_t>& flags) {
     for (std::size_t i = 0; i < flags.size(); ++i) {
-      if ((flags[i] & map::taxel_flag::kDead) != 0) dead_.push_back(i);
-      if ((flags[i] & map::taxel_flag::kStuck) != 0) stuck_.push_back(i);
+      if ((flags[i] & map::taxel_flag::kDead) != 0) dead_.insert(i);
+      if ((flags[i] & map::taxel_flag::kStuck) != 0) stuck_.insert(i);
     }
   }
 
@@ -250,6 +256,9 @@ class Checker {
 
   const Calibration& calibration_;
   Calibration static_;                       // the same without a model of memory
+  std::deque<LiveMap> maps_;                 // of this recording; a calibrator does not move
+  std::size_t number_ = 0;                   // of this recording
+  std::int64_t first_ns_ = 0;                // of the first recording that the maps saw
   std::vector<dataset::Sections> sections_;  // [recordings], for that model
   dataset::Protocols protocols_;             // likewise
   Sums whole_, untared_;
@@ -259,7 +268,7 @@ class Checker {
   std::vector<std::string> order_;  // of the surfaces
   std::vector<Sums> taxels_;
   std::vector<PartSums> parts_;
-  std::vector<std::size_t> dead_, stuck_;
+  std::set<std::size_t> dead_, stuck_;
   std::set<std::string> not_tared_;  // a sentence for each session
 };
 
@@ -340,7 +349,10 @@ MapErrors errorsOfMap(const Calibration& calibration, const std::vector<Recordin
     throw settings::InputError("there is no bag to check the calibration on; give one at least");
   for (const Recording& recording : recordings) calibration::requireFit(calibration, recording);
   Checker checker(calibration, recordings);
-  for (const Recording& recording : recordings) checker.take(recording);
+  const std::vector<std::size_t> order = dataset::inOrderOfTime(recordings);
+  for (std::size_t k = 0; k < order.size(); ++k)
+    checker.take(recordings[order[k]], order[k],
+                 k > 0 && dataset::sheetLayOn(recordings[order[k - 1]], recordings[order[k]]));
   MapErrors errors = checker.result(limits);
   if (errors.whole.readings == 0)
     throw settings::InputError("no reading of the bags gives a pressure; is every taxel masked?");

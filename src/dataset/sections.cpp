@@ -18,6 +18,16 @@ std::vector<std::size_t> inOrderOfTime(const std::vector<Recording>& recordings)
   return order;
 }
 
+bool sheetLayOn(const Recording& before, const Recording& after) {
+  constexpr double kLongest = 3600;  // numbers of mounts begin again with the driver [s]
+  if (before.scans() == 0 || after.scans() == 0 || before.sensor.serial != after.sensor.serial) return false;
+  const matrix::Surface& surface = after.conditions[after.condition.front()];
+  const double pause =
+      double(after.start_ns - before.start_ns) * 1e-9 + after.time.front() - before.time.back();
+  return surface.mount > 0 && matrix::sameCondition(before.conditions[before.condition.back()], surface) &&
+         pause > 0 && pause <= kLongest;
+}
+
 namespace {
 
 struct Turn {

@@ -15,6 +15,10 @@ namespace fsr::dataset {
 /// their order.
 std::vector<std::size_t> inOrderOfTime(const std::vector<Recording>& recordings);
 
+/// Whether the sheet lay on between two recordings: the second begins after the end of the first, within an
+/// hour, on the same sensor, surface and mount.
+bool sheetLayOn(const Recording& before, const Recording& after);
+
 /// How far the pressure must return before a peak or a valley counts.
 struct CycleOptions {
   double share_of_range = 0.05;  ///< share of (largest - smallest pressure of the series)

@@ -62,10 +62,9 @@ HistoryStudy::HistoryStudy(const StudyData& data, const Split& split, const std:
       models_(models),
       plan_(plan),
       grid_(calibration::historyGrid(data.protocols.lowest, data.protocols.highest,
-                                     data.protocols.longest_hold)) {
-  for (std::size_t r = 0; r < data.recordings->size(); ++r) {
-    streams_.emplace_back((*data.recordings)[r], r, data.class_of[r], data.divided[r], data.protocols, grid_);
-  }
+                                     data.protocols.longest_hold)),
+      streams_(
+          calibration::historyStreams(*data.recordings, data.class_of, data.divided, data.protocols, grid_)) {
   std::vector<std::vector<LeftOutSums>> each(data.taxels.size());
   matrix::forEachTaxel(each.size(), plan.threads, [&](std::size_t t) { each[t] = sumsOf(data.taxels[t]); });
   // Taxels are added in their order, so that the result does not depend on the number of threads.
@@ -99,8 +98,9 @@ std::vector<LeftOutSums> HistoryStudy::sumsOf(std::size_t taxel) const {
   for (std::size_t k = 0; k < split_.folds.size(); ++k) {
     const std::vector<StaticAnswer> answers = staticAnswers(taxel, k, readings);
     LeftOutSums sums(grid_.features());
+    calibration::HistoryCourse course;
     for (const HistoryStream& stream : streams_)
-      calibration::addHistoryRows(stream, grid_, taxel, answers, protocolOf(split_.folds[k]), sums);
+      calibration::addHistoryRows(stream, grid_, taxel, answers, protocolOf(split_.folds[k]), course, sums);
     sums.finish();
     of_fold.push_back(std::move(sums));
   }
@@ -112,16 +112,16 @@ HeldOutAnswer HistoryStudy::answer(std::size_t taxel, std::size_t fold, const Ta
   const Eigen::VectorXd& coefficients = verdict_.coefficients[fold];
   Eigen::VectorXd features(Eigen::Index(grid_.features()));
   const auto corrected = std::make_shared<std::vector<CorrectedPressures>>(streams_.size());
-  for (std::size_t r = 0; r < streams_.size(); ++r) {
-    CorrectedPressures& own = (*corrected)[r];
-    streams_[r].run(
-        taxel, tables,
-        [&](const HistoryStream::Scan& scan, double x, const double* state, const double* /*open*/) {
-          if (scan.protocol != protocolOf(split_.folds[fold])) return;
-          calibration::historyFeatures(grid_, x, state, features.data());
-          own.add(scan.number, x + coefficients.dot(features));
-        });
-    own.addUntil(streams_[r].recording().scans());
+  calibration::HistoryCourse course;
+  for (const HistoryStream& stream : streams_) {
+    CorrectedPressures& own = (*corrected)[stream.number()];
+    stream.run(taxel, tables, course,
+               [&](const HistoryStream::Scan& scan, double x, const double* state, const double* /*open*/) {
+                 if (scan.protocol != protocolOf(split_.folds[fold])) return;
+                 calibration::historyFeatures(grid_, x, state, features.data());
+                 own.add(scan.number, x + coefficients.dot(features));
+               });
+    own.addUntil(stream.recording().scans());
   }
   return [tables, corrected](std::size_t c, const ScanPlace& scan, std::uint16_t code) {
     const double pressure = (*corrected)[scan.recording][scan.number];

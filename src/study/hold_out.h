@@ -71,7 +71,7 @@ class HistoryStudy {
   const std::vector<FoldModel>& models_;
   const StudyPlan& plan_;
   calibration::HistoryGrid grid_;
-  std::vector<calibration::HistoryStream> streams_;  // [recordings]
+  std::vector<calibration::HistoryStream> streams_;  // in the order of time
   calibration::HistoryVerdict verdict_;
 };
 

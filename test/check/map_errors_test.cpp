@@ -185,4 +185,16 @@ TEST(MapErrorsOfMemory, SaysWhichPromiseItCannotSee) {
   EXPECT_EQ(check.not_shown[1].find("pressures of "), 0u) << check.not_shown[1];
 }
 
+// The second bag begins under load. Its memory is known only where the sheet lay on.
+TEST(MapErrorsOfMemory, GoesOnInTheNextBagOfASheetThatLayOn) {
+  const fsr::calibration::Calibration calibration = trained({test_support::memoryRecording(loopRig())});
+  const Recording whole = another();
+  const Recording first = test_support::partOf(whole, 0, 60);
+  Recording second = test_support::partOf(whole, 60, whole.scans());
+  const double undivided = errorsOfMap(calibration, {whole}).whole.rmse;
+  EXPECT_NEAR(errorsOfMap(calibration, {second, first}).whole.rmse, undivided, 1e-6 * undivided);
+  second.conditions[0].mount = 2;
+  EXPECT_GT(errorsOfMap(calibration, {second, first}).whole.rmse, 1.01 * undivided);
+}
+
 }  // namespace

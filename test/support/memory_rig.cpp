@@ -100,4 +100,19 @@ fsr::dataset::Recording memorySession(std::size_t number, double offset, MemoryR
   return recording;
 }
 
+fsr::dataset::Recording partOf(const fsr::dataset::Recording& whole, std::size_t first, std::size_t last) {
+  fsr::dataset::Recording part = whole;
+  const auto cut = [&](auto& values, std::size_t each = 1) {
+    values.erase(values.begin() + std::ptrdiff_t(last * each), values.end());
+    values.erase(values.begin(), values.begin() + std::ptrdiff_t(first * each));
+  };
+  cut(part.time);
+  cut(part.pressure);
+  cut(part.condition);
+  cut(part.counts, whole.layout.size.taxels());
+  for (double& time : part.time) time -= whole.time[first];
+  part.start_ns = whole.start_ns + std::llround(1e9 * whole.time[first]);
+  return part;
+}
+
 }  // namespace test_support

@@ -40,4 +40,7 @@ fsr::dataset::Recording memoryRecording(const MemoryRig& rig);
 /// others, where a table is constant and a session cannot be predicted.
 fsr::dataset::Recording memorySession(std::size_t number, double offset, MemoryRig rig = {});
 
+/// The scans from `first` to before `last`, as a bag of its own.
+fsr::dataset::Recording partOf(const fsr::dataset::Recording& whole, std::size_t first, std::size_t last);
+
 }  // namespace test_support

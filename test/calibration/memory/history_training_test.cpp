@@ -10,6 +10,7 @@
 #include <random>
 
 #include "calibration/merge.h"
+#include "calibration/stages/memory/history_stream.h"
 #include "calibration/stages/memory/history_training.h"
 #include "fsr_pressure_map/calibration/calibration.h"
 #include "fsr_pressure_map/calibration/calibration_file.h"
@@ -48,6 +49,37 @@ dataset::Recording another(MemoryRig rig) {
 
 double errorOn(const Calibration& calibration, const dataset::Recording& recording) {
   return test_support::liveRmse(calibration, {recording});
+}
+
+// The states of the operators on 3 taxels with one table, at each scan of bags cut from one recording.
+std::vector<double> statesOf(const std::vector<dataset::Recording>& bags) {
+  std::vector<dataset::Sections> sections;
+  for (const dataset::Recording& bag : bags) sections.push_back(dataset::divideIntoSections(bag, 5));
+  const dataset::Protocols protocols = dataset::protocolsOf(bags, sections);
+  const HistoryGrid grid{{0, 600e3}, {30e3, 90e3}, {1, 10}};
+  StaticAnswer answer;
+  for (int code = 0; code < 4096; ++code) answer.pressure.push_back(170.0 * code);
+  std::vector<double> states;
+  HistoryCourse course;
+  for (const HistoryStream& stream : historyStreams(
+           bags, std::vector<std::vector<std::size_t>>(bags.size(), {0}), sections, protocols, grid))
+    stream.run(1, {answer}, course, [&](const auto&, double, const double* state, const double*) {
+      states.insert(states.end(), state, state + 4);
+    });
+  return states;
+}
+
+// "The second bag begins in the middle of the first one's creep."
+TEST(HistoryStream, GoesOnInTheNextBagOfASheetThatLayOn) {
+  const dataset::Recording whole = test_support::memoryRecording(rigWith(0.08, 0.06));
+  const dataset::Recording first = test_support::partOf(whole, 0, 260);
+  dataset::Recording second = test_support::partOf(whole, 260, whole.scans());
+  const std::vector<double> undivided = statesOf({whole});
+  const std::vector<double> cut = statesOf({second, first});
+  ASSERT_EQ(cut.size(), undivided.size());
+  for (std::size_t k = 0; k < cut.size(); ++k) ASSERT_NEAR(cut[k], undivided[k], 1e-3) << k / 4;
+  second.start_ns += 7'200'000'000'000;  // two hours later
+  EXPECT_GT(std::abs(statesOf({first, second})[4 * 300 + 3] - undivided[4 * 300 + 3]), 1e3);
 }
 
 TEST(HistoryTraining, TakesOutALoopOfAnotherFormulaOnAnotherProtocol) {

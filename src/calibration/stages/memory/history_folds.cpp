@@ -128,16 +128,6 @@ void setTrainedCodes(const std::vector<regression::CodeStatistics>& sections, st
   }
 }
 
-// Those that a tare belongs to.
-std::vector<Session> sessionsOf(const HistoryProblem& problem, std::size_t recording) {
-  std::vector<Session> own;
-  if (problem.sessions == nullptr) return own;
-  for (const Session& session : problem.sessions->all) {
-    if (session.recording == recording) own.push_back(session);
-  }
-  return own;
-}
-
 }  // namespace
 
 HistoryFolds::HistoryFolds(const HistoryProblem& problem, const dataset::Protocols& protocols,
@@ -148,11 +138,11 @@ HistoryFolds::HistoryFolds(const HistoryProblem& problem, const dataset::Protoco
       threads_(threads),
       calibration_(calibration),
       judged_(std::move(judged)),
-      grid_(historyGrid(protocols.lowest, protocols.highest, protocols.longest_hold)) {
+      grid_(historyGrid(protocols.lowest, protocols.highest, protocols.longest_hold)),
+      streams_(historyStreams(problem.recordings, problem.classes.class_of, problem.sections, protocols,
+                              grid_, problem.sessions)) {
   std::vector<dataset::Sections> by_protocol = problem.sections;
   for (std::size_t r = 0; r < problem.recordings.size(); ++r) {
-    streams_.emplace_back(problem.recordings[r], r, problem.classes.class_of[r], problem.sections[r],
-                          protocols, grid_, sessionsOf(problem, r));
     for (std::size_t i = 0; i < problem.recordings[r].scans(); ++i) {
       std::uint32_t& section = by_protocol[r].section[i];
       if (section == dataset::kNoSection) continue;
@@ -200,9 +190,10 @@ HistoryFolds::Answers HistoryFolds::answersOfTables(std::size_t taxel) const {
 // A row is the mean of the scans within half a second.
 void HistoryFolds::addRows(std::size_t taxel, const Answers& answers, std::size_t left_out,
                            LeftOutSums& sums) const {
-  for (std::size_t r = 0; r < streams_.size(); ++r)
-    addHistoryRows(streams_[r], grid_, taxel, answers, left_out, sums,
-                   judged_.empty() ? nullptr : &judged_[r]);
+  HistoryCourse course;
+  for (const HistoryStream& stream : streams_)
+    addHistoryRows(stream, grid_, taxel, answers, left_out, course, sums,
+                   judged_.empty() ? nullptr : &judged_[stream.number()]);
   sums.finish();
 }
 
@@ -250,8 +241,9 @@ void HistoryFolds::addErrors(std::size_t taxel, const Answers& answers, std::siz
                              std::size_t first_operator, const Eigen::VectorXd& coefficients,
                              const OpenDeviation& open_deviation, HistoryErrors& errors) const {
   Eigen::VectorXd features(Eigen::Index(grid_.features()));
+  HistoryCourse course;
   for (const HistoryStream& stream : streams_) {
-    stream.run(taxel, answers,
+    stream.run(taxel, answers, course,
                [&](const HistoryStream::Scan& scan, double x, const double* state, const double* open) {
                  if (scan.protocol != protocol) return;
                  historyFeatures(grid_, x, state, features.data());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -20,11 +21,13 @@ constexpr std::size_t kMostInMemory = 8u << 20;  // of the scans of a recording,
 
 HistoryStream::HistoryStream(const dataset::Recording& recording, std::size_t number,
                              const std::vector<std::size_t>& classes, const dataset::Sections& sections,
-                             const dataset::Protocols& protocols, const HistoryGrid& grid,
+                             const dataset::Protocols& protocols, const HistoryGrid& grid, bool lies_on,
                              std::vector<Session> sessions)
     : recording_(&recording),
+      number_(number),
       sections_(&sections),
       operators_(operatorsOf(grid)),
+      lies_on_(lies_on),
       sessions_(std::move(sessions)),
       scans_(kMostInMemory),
       steps_(kMostInMemory) {
@@ -42,18 +45,18 @@ HistoryStream::HistoryStream(const dataset::Recording& recording, std::size_t nu
     scan.curvature_class = static_cast<std::uint16_t>(classes[recording.condition[i]]);
     scan.protocol = protocol[i];
     if (!protocols.part_of_scan.empty()) scan.part = protocols.part_of_scan[number][i];
-    scan.starts = !last || starts(i, last->number);
-    if (scan.starts || sections.direction[i] != sections.direction[last->number]) turned = time;
+    scan.starts = last ? starts(i, last->number) : !lies_on;
+    if (!last || scan.starts || sections.direction[i] != sections.direction[last->number]) turned = time;
     scan.since_reversal = time - turned;
     scan.row = last ? last->row : 0;
-    if (scan.starts || protocol[i] != last->protocol || scan.part != last->part ||
+    if (!last || scan.starts || protocol[i] != last->protocol || scan.part != last->part ||
         time >= row_begins + kRow) {
       ++scan.row;
       row_begins = time;
     }
     if (memories > 0) {
       std::fill(steps.begin(), steps.end(), Step());
-      if (!scan.starts) operators_.stepsOver(time - recording.time[last->number], steps.data());
+      if (last && !scan.starts) operators_.stepsOver(time - recording.time[last->number], steps.data());
       steps_.add(steps.data());
     }
     scans_.add(&scan);
@@ -67,6 +70,16 @@ bool HistoryStream::starts(std::size_t scan, std::size_t before) const {
          recording_->time[scan] < recording_->time[before];
 }
 
+// Takes over the course of the stream before, in the time of this recording.
+void HistoryStream::begin(HistoryCourse& course) const {
+  const double later = double(recording_->start_ns - course.start_ns) * 1e-9;
+  course.start_ns = recording_->start_ns;
+  course.taxel.at -= later;
+  course.before -= later;
+  course.state.resize(operators_.size());
+  course.open.resize(operators_.size());
+}
+
 // Whether something is still open; memories of which nearly all is known are closed.
 bool HistoryStream::closeWhatIsKnown(std::vector<double>& open) const {
   constexpr double kNearlyAll = 1e-3;
@@ -77,15 +90,40 @@ bool HistoryStream::closeWhatIsKnown(std::vector<double>& open) const {
   return some;
 }
 
-// [conditions]
-std::vector<double> HistoryStream::zerosOf(std::size_t taxel,
-                                           const std::vector<StaticAnswer>& answers) const {
+// [conditions]. `last`: of the last surface of the stream before, then of this one. A sheet that lay on keeps
+// its tare.
+std::vector<double> HistoryStream::zerosOf(std::size_t taxel, const std::vector<StaticAnswer>& answers,
+                                           double& last) const {
   std::vector<double> zeros(recording_->conditions.size(), 0.0);
   for (const Session& session : sessions_) {
     const std::vector<double>& table = answers[session.curvature_class].pressure;
-    zeros[session.condition] = zeroAtRest(*recording_, session.rest, taxel, table).value_or(0);
+    const bool goes_on = lies_on_ && session.condition == recording_->condition.front();
+    zeros[session.condition] =
+        zeroAtRest(*recording_, session.rest, taxel, table).value_or(goes_on ? last : 0);
   }
+  if (recording_->scans() > 0) last = zeros[recording_->condition.back()];
   return zeros;
+}
+
+std::vector<HistoryStream> historyStreams(const std::vector<dataset::Recording>& recordings,
+                                          const std::vector<std::vector<std::size_t>>& classes,
+                                          const std::vector<dataset::Sections>& sections,
+                                          const dataset::Protocols& protocols, const HistoryGrid& grid,
+                                          const Sessions* sessions) {
+  std::vector<HistoryStream> streams;
+  const std::vector<std::size_t> order = dataset::inOrderOfTime(recordings);
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const std::size_t r = order[k];
+    const bool lies_on = k > 0 && dataset::sheetLayOn(recordings[order[k - 1]], recordings[r]);
+    std::vector<Session> tared;
+    if (sessions != nullptr) {
+      std::copy_if(sessions->all.begin(), sessions->all.end(), std::back_inserter(tared),
+                   [&](const Session& session) { return session.recording == r; });
+    }
+    streams.emplace_back(recordings[r], r, classes[r], sections[r], protocols, grid, lies_on,
+                         std::move(tared));
+  }
+  return streams;
 }
 
 void setTrainedPressures(const std::vector<HistoryStream>& streams, std::size_t left_out,
@@ -122,8 +160,8 @@ void LeftOutSums::merge(const LeftOutSums& other) {
 }
 
 void addHistoryRows(const HistoryStream& stream, const HistoryGrid& grid, std::size_t taxel,
-                    const std::vector<StaticAnswer>& answers, std::size_t left_out, LeftOutSums& sums,
-                    const std::vector<double>* judged) {
+                    const std::vector<StaticAnswer>& answers, std::size_t left_out, HistoryCourse& course,
+                    LeftOutSums& sums, const std::vector<double>* judged) {
   const std::size_t n = grid.features();
   std::vector<double> features(n), mean(n);
   double target = 0, count = 0;
@@ -135,7 +173,7 @@ void addHistoryRows(const HistoryStream& stream, const HistoryGrid& grid, std::s
     std::fill(mean.begin(), mean.end(), 0.0);
     target = count = 0;
   };
-  stream.run(taxel, answers,
+  stream.run(taxel, answers, course,
              [&](const HistoryStream::Scan& scan, double x, const double* state, const double* /*open*/) {
                if (scan.row != row.row) close();
                row = scan;

@@ -31,6 +31,16 @@ struct StaticAnswer {
   }
 };
 
+/// The operators of one taxel along the recordings of a training, see HistoryStream::run().
+struct HistoryCourse {
+  std::vector<double> state, open;  ///< [operators]
+  HistoryTaxel taxel;
+  double before = 0;          ///< time of the scan before [s]
+  std::int64_t start_ns = 0;  ///< of the recording whose time it is
+  bool known = false;
+  double zero = 0;  ///< that a tare subtracts on the last surface [Pa]
+};
+
 /// The scans of one recording in the order of time, as the operators of a history model meet them.
 class HistoryStream {
   template <typename T>
@@ -50,13 +60,15 @@ class HistoryStream {
 
   /// The arguments but `grid` and `protocols` must outlive the object. `number`: of the recording among those
   /// of `protocols`. `classes`: of the conditions of this recording.
+  /// `lies_on`: since the recording before, see dataset::sheetLayOn().
   /// `sessions`: where the operators meet the static answer after a tare, those of this recording.
   HistoryStream(const dataset::Recording& recording, std::size_t number,
                 const std::vector<std::size_t>& classes, const dataset::Sections& sections,
-                const dataset::Protocols& protocols, const HistoryGrid& grid,
+                const dataset::Protocols& protocols, const HistoryGrid& grid, bool lies_on,
                 std::vector<Session> sessions = {});
 
   const dataset::Recording& recording() const { return *recording_; }
+  std::size_t number() const { return number_; }
   const dataset::Sections& sections() const { return *sections_; }
   template <typename Visit>
   void forEachScan(Visit&& visit) const {
@@ -67,15 +79,15 @@ class HistoryStream {
   /// Drives the operators with the static answers of one taxel, as the live map does, and calls
   /// visit(scan, x, state, open) for each scan that counts; see HistoryOperators for `state` and `open`.
   /// Codes at full scale are left out. Codes and pressures beyond those of training drive the operators, but
-  /// do not count: a table says nothing there.
+  /// do not count: a table says nothing there. `course`: that of the taxel in the stream before, with the
+  /// same answers; it goes on where the sheet lay on.
   template <typename Visit>
-  void run(std::size_t taxel, const std::vector<StaticAnswer>& answers, Visit&& visit) const {
-    std::vector<double> state(operators_.size()), open(operators_.size());
+  void run(std::size_t taxel, const std::vector<StaticAnswer>& answers, HistoryCourse& course,
+           Visit&& visit) const {
+    begin(course);
+    auto& [state, open, own, before, start_ns, known, zero] = course;
     std::vector<Step> spell(operators_.memories());
-    const std::vector<double> zeros = zerosOf(taxel, answers);
-    HistoryTaxel own;
-    double before = 0;  // time of the scan before [s]
-    bool known = false;
+    const std::vector<double> zeros = zerosOf(taxel, answers, zero);
     dataset::TaxelCounts counts(*recording_, taxel);
     Spool<Scan>::Reader scans(scans_);
     Spool<Step>::Reader steps(steps_);
@@ -100,7 +112,11 @@ class HistoryStream {
         operators_.advanceUnseen(own.last, x, own.limit, spell.data(), state.data(), open.data());
         own.open = true;
       } else {
-        const Step* const step = operators_.memories() > 0 ? steps[k] : nullptr;
+        const Step* step = operators_.memories() > 0 ? steps[k] : nullptr;
+        if (k == 0) {  // its scan before is one of another recording
+          operators_.stepsOver(time - own.at, spell.data());
+          step = spell.data();
+        }
         if (own.open) operators_.advanceOpen(own.last, x, step, state.data(), open.data());
         if (!own.open) operators_.advance(own.last, x, step, state.data());
       }
@@ -115,16 +131,28 @@ class HistoryStream {
 
  private:
   bool starts(std::size_t scan, std::size_t before) const;
+  void begin(HistoryCourse& course) const;
   bool closeWhatIsKnown(std::vector<double>& open) const;
-  std::vector<double> zerosOf(std::size_t taxel, const std::vector<StaticAnswer>& answers) const;
+  std::vector<double> zerosOf(std::size_t taxel, const std::vector<StaticAnswer>& answers,
+                              double& last) const;
 
   const dataset::Recording* recording_;
+  std::size_t number_;
   const dataset::Sections* sections_;
   HistoryOperators operators_;
+  bool lies_on_;
   std::vector<Session> sessions_;
   Spool<Scan> scans_;
   Spool<Step> steps_;  // [scans x memories]
 };
+
+/// The streams of all recordings in the order of time. The arguments are those of HistoryStream, for each
+/// recording.
+std::vector<HistoryStream> historyStreams(const std::vector<dataset::Recording>& recordings,
+                                          const std::vector<std::vector<std::size_t>>& classes,
+                                          const std::vector<dataset::Sections>& sections,
+                                          const dataset::Protocols& protocols, const HistoryGrid& grid,
+                                          const Sessions* sessions = nullptr);
 
 /// Limits the answers of each class [classes] to the pressures of the scans that are not of `left_out`.
 void setTrainedPressures(const std::vector<HistoryStream>& streams, std::size_t left_out,
@@ -147,9 +175,9 @@ struct LeftOutSums {
 
 /// Adds the readings of one taxel in one recording, in means over half a second. `answers` [classes] were
 /// trained without the protocol `left_out`. `judged` [scans]: the pressures of that protocol [Pa]; null =
-/// those of the recording. finish() must follow the last recording.
+/// those of the recording. `course`: see HistoryStream::run(). finish() must follow the last recording.
 void addHistoryRows(const HistoryStream& stream, const HistoryGrid& grid, std::size_t taxel,
-                    const std::vector<StaticAnswer>& answers, std::size_t left_out, LeftOutSums& sums,
-                    const std::vector<double>* judged = nullptr);
+                    const std::vector<StaticAnswer>& answers, std::size_t left_out, HistoryCourse& course,
+                    LeftOutSums& sums, const std::vector<double>* judged = nullptr);
 
 }  // namespace fsr::calibration
