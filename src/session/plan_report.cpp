@@ -119,8 +119,7 @@ constexpr Question kQuestions[] = {
      [](const Contents& c) { return c.protocols > 1 ? c.protocols : 0; }},
     {"The memory of the sheet, by its time constants", "all cycles have one protocol", "longest [s]",
      [](const Contents& c) {
-       return c.protocols > 1 ? calibration::historyGrid(0, c.highest, c.longest_hold).time_constants.back()
-                              : 0;
+       return c.protocols > 1 ? calibration::historyGrid(0, c.highest, c.longest_hold).longestMeasured() : 0;
      }},
     {"Whether a tare at the start of a session helps", "no surface has two recordings that start with a rest",
      nullptr, [](const Contents& c) { return double(c.remounted > 0 && c.rest_first); }},

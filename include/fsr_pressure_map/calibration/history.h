@@ -34,7 +34,11 @@ struct HistoryModel {
   HistoryFamily family = HistoryFamily::kNone;
   std::vector<double> knot;  ///< of c, evenly spaced, ascending [Pa]; two or more unless family is kNone
   std::vector<double> correction;  ///< c at each knot, constant beyond them [Pa]
-  std::vector<double> radius;      ///< of the plays, above 0 [Pa]
+  /// The smallest and the largest p - x of training at each knot [Pa]: p - x is limited to them, since
+  /// weights that fit one course of loads need not fit a wider one. Empty, as in files of earlier versions:
+  /// no limits.
+  std::vector<double> least_change, largest_change;
+  std::vector<double> radius;  ///< of the plays, above 0 [Pa]
   std::vector<double> play_weight;
   std::vector<double> time_constant;  ///< of the memories, above 0 [s]
   std::vector<double> memory_weight;
@@ -50,8 +54,6 @@ struct HistoryModel {
   std::vector<double> unloading_deviation;  ///< [Pa]
 
   bool present() const { return family != HistoryFamily::kNone; }
-  /// The smallest of the stated deviations [Pa]; 0 if there is none.
-  double smallestDeviation() const;
 };
 
 }  // namespace fsr::calibration

@@ -116,6 +116,13 @@ void historyMembers(hdf5::Members& file, HistoryModel& model) {
   if (file.reads() ? file.has("memory_spread") : !model.memory_spread.empty())  // not in earlier versions
     column("memory_spread", model.memory_spread, "Pa", "of the memories: deviation where nothing is known", 0,
            kLargestPressure);
+  if (file.reads() ? file.has("least_change") : !model.least_change.empty()) {  // likewise
+    const char* const meaning = "p - x is not beyond that of training: limit at each knot";
+    column("least_change", model.least_change, "Pa", meaning, -kLargestPressure, kLargestPressure);
+    column("largest_change", model.largest_change, "Pa", meaning, -kLargestPressure, kLargestPressure);
+    requireEven(file, "least_change", model.knot, model.least_change);
+    requireEven(file, "largest_change", model.knot, model.largest_change);
+  }
   column("deviation_knot", model.deviation_knot, "Pa", "evenly spaced pressures", -kLargestPressure,
          kLargestPressure);
   column("loading_deviation", model.loading_deviation, "Pa", "of a reading of a protocol that was left out",

@@ -184,6 +184,9 @@ TEST_F(HistoryFile, KeepsTheModelAndItsScores) {
   EXPECT_EQ(loaded.history.memory_weight, calibration.history.memory_weight);
   EXPECT_FALSE(loaded.history.memory_spread.empty());
   EXPECT_EQ(loaded.history.memory_spread, calibration.history.memory_spread);
+  EXPECT_EQ(loaded.history.least_change.size(), 17u);
+  EXPECT_EQ(loaded.history.least_change, calibration.history.least_change);
+  EXPECT_EQ(loaded.history.largest_change, calibration.history.largest_change);
   EXPECT_EQ(loaded.history.unloading_deviation, calibration.history.unloading_deviation);
   EXPECT_EQ(loaded.scores.history.choice, calibration.scores.history.choice);
   ASSERT_EQ(loaded.scores.history.parts.size(), calibration.scores.history.parts.size());

@@ -24,12 +24,4 @@ HistoryFamily historyFromName(const std::string& name) {
   return static_cast<HistoryFamily>(place - kNames.begin());
 }
 
-double HistoryModel::smallestDeviation() const {
-  double smallest = loading_deviation.empty() ? 0 : loading_deviation.front();
-  for (const auto* deviation : {&loading_deviation, &unloading_deviation}) {
-    for (const double value : *deviation) smallest = std::min(smallest, value);
-  }
-  return smallest;
-}
-
 }  // namespace fsr::calibration

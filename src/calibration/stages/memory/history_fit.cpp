@@ -17,7 +17,9 @@ constexpr double kRadii[] = {0.02, 0.05, 0.1, 0.2, 0.35};
 constexpr std::size_t kMostMemories = 6;
 constexpr double kShortest = 0.3;         // time constant [s]
 constexpr double kShareOfHold = 1.0 / 3;  // the longest time constant
+constexpr std::size_t kContinued = 2;     // memories of the decade beyond it
 constexpr double kRidge = 1e-5;           // of each weight, relative to the squares of its feature
+constexpr double kContinues = 0.1;        // of differences of weights, relative to the mean of the squares
 constexpr double kMatters = 1e-4;         // share of the range
 
 using Index = Eigen::Index;
@@ -34,6 +36,7 @@ bool hasMemories(HistoryFamily family) {
 struct Columns {
   std::vector<Index> index;
   std::vector<double> sign;
+  Index memories = 0, continued = 0;  // of the last columns
 };
 
 Columns columnsOf(HistoryFamily family, const HistoryGrid& grid, double plays, double memories) {
@@ -46,7 +49,10 @@ Columns columnsOf(HistoryFamily family, const HistoryGrid& grid, double plays, d
   };
   add(0, grid.knots.size(), 0);
   if (hasPlays(family)) add(grid.knots.size(), grid.radii.size(), plays);
-  if (hasMemories(family)) add(grid.knots.size() + grid.radii.size(), grid.time_constants.size(), memories);
+  if (!hasMemories(family)) return columns;
+  add(grid.knots.size() + grid.radii.size(), grid.time_constants.size(), memories);
+  columns.memories = Index(grid.time_constants.size());
+  columns.continued = Index(grid.continued);
   return columns;
 }
 
@@ -67,10 +73,22 @@ Eigen::VectorXd fitColumns(const Columns& columns, const HistorySums& sums) {
       gram(i, j) = sign(i) * sign(j) * sums.gram()(from, columns.index[std::size_t(j)]);
     if (!free.back()) gram(i, i) *= 1 + kRidge;
   }
+  if (columns.continued > 0) {
+    const double strength = kContinues * gram.diagonal().tail(columns.memories).mean();
+    for (Index i = n - columns.continued; i < n; ++i) {
+      gram(i, i) += strength, gram(i - 1, i - 1) += strength;
+      gram(i, i - 1) -= strength, gram(i - 1, i) -= strength;
+    }
+  }
   const Eigen::VectorXd own = statistics::solveSigned(gram, right, free);
   Eigen::VectorXd all = Eigen::VectorXd::Zero(target);
   for (Index i = 0; i < n; ++i) all[columns.index[std::size_t(i)]] = sign(i) * own[i];
   return all;
+}
+
+EvenPlace placeOn(const HistoryGrid& grid, double x) {
+  const double per_unit = double(grid.knots.size() - 1) / (grid.knots.back() - grid.knots.front());
+  return EvenLine::place(x, grid.knots.front(), per_unit, grid.knots.size());
 }
 
 }  // namespace
@@ -89,6 +107,9 @@ HistoryGrid historyGrid(double lowest, double highest, double longest_hold) {
     const double share = count == 1 ? 0 : double(k) / double(count - 1);
     grid.time_constants.push_back(kShortest * std::pow(longest / kShortest, share));
   }
+  grid.continued = count == 1 ? 0 : kContinued;
+  for (std::size_t k = 1; k <= grid.continued; ++k)
+    grid.time_constants.push_back(longest * std::pow(10.0, double(k) / double(kContinued)));
   return grid;
 }
 
@@ -99,8 +120,7 @@ HistoryOperators operatorsOf(const HistoryGrid& grid) {
 void historyFeatures(const HistoryGrid& grid, double x, const double* state, double* features) {
   const std::size_t knots = grid.knots.size();
   std::fill(features, features + knots, 0.0);
-  const double per_unit = double(knots - 1) / (grid.knots.back() - grid.knots.front());
-  const EvenPlace at = EvenLine::place(x, grid.knots.front(), per_unit, knots);
+  const EvenPlace at = placeOn(grid, x);
   features[at.below] = 1 - at.share;
   features[at.below + 1] = at.share;
   for (std::size_t k = knots; k < grid.features(); ++k) features[k] = state[k - knots] - x;
@@ -163,6 +183,36 @@ std::vector<double> memorySpreads(const HistoryGrid& grid, const HistorySums& su
   for (Index k = 0; k < Index(grid.time_constants.size()); ++k)
     spreads.push_back(std::sqrt(sums.gram()(first + k, first + k) / std::max(sums.samples(), 1.0)));
   return spreads;
+}
+
+void ChangeRange::add(double x, double change) {
+  const EvenPlace at = placeOn(*grid_, x);
+  const std::size_t knot = at.below + (at.share > 0.5 ? 1 : 0);
+  least_[knot] = std::min(least_[knot], change);
+  largest_[knot] = std::max(largest_[knot], change);
+}
+
+void ChangeRange::merge(const ChangeRange& other) {
+  for (std::size_t k = 0; k < least_.size(); ++k) {
+    least_[k] = std::min(least_[k], other.least_[k]);
+    largest_[k] = std::max(largest_[k], other.largest_[k]);
+  }
+}
+
+void ChangeRange::finish() {
+  const auto take = [this](std::size_t to, std::size_t from) {
+    if (least_[to] > largest_[to]) least_[to] = least_[from], largest_[to] = largest_[from];
+  };
+  for (std::size_t k = 1; k < least_.size(); ++k) take(k, k - 1);
+  for (std::size_t k = least_.size() - 1; k-- > 0;) take(k, k + 1);
+}
+
+double ChangeRange::limited(double x, double change) const {
+  const EvenPlace at = placeOn(*grid_, x);
+  const auto on = [&](const std::vector<double>& line) {
+    return line[at.below] + at.share * (line[at.below + 1] - line[at.below]);
+  };
+  return std::min(std::max(change, on(least_)), on(largest_));
 }
 
 HistoryModel historyModel(HistoryFamily family, const HistoryGrid& grid, const Eigen::VectorXd& coefficients,

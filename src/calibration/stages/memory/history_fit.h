@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "calibration/stages/memory/history_state.h"
@@ -14,13 +15,16 @@ struct HistoryGrid {
   std::vector<double> knots;           ///< of the correction c [Pa]
   std::vector<double> radii;           ///< of the plays [Pa]
   std::vector<double> time_constants;  ///< of the memories [s]
+  std::size_t continued = 0;           ///< of the time constants, the last ones: longer than can be measured
 
   /// c at each knot, then the operators.
   std::size_t features() const { return knots.size() + radii.size() + time_constants.size(); }
+  double longestMeasured() const { return time_constants[time_constants.size() - 1 - continued]; }  ///< [s]
 };
 
 /// The grid for pressures from `lowest` to `highest` [Pa] whose longest hold or rest is `longest_hold` [s]. A
-/// memory that is longer than a third of it cannot be told from drift or a standing load.
+/// memory that is longer than a third of it cannot be told from drift or a standing load by itself. Creep
+/// goes on as the logarithm of time, so one more decade of times continues those that are measured.
 HistoryGrid historyGrid(double lowest, double highest, double longest_hold);
 
 /// The features of one sample: shares of the two knots around x, and operator - x for each operator.
@@ -61,12 +65,33 @@ class HistorySums {
 Eigen::VectorXd fitCorrection(const HistoryGrid& grid, const HistorySums& sums);
 
 /// The coefficients of a family, [features] of the grid, 0 for operators that it does not have. Least squares
-/// with a small ridge on the weights. All weights of plays have one sign, and all of memories: the sign with
+/// with a small ridge on the weights, and a larger one on the differences between the weights of the longest
+/// memories, from the longest that is measured on: creep has equal weights by the logarithm of time. All
+/// weights of plays have one sign, and all of memories: the sign with
 /// which the fit is better.
 Eigen::VectorXd fitHistory(HistoryFamily family, const HistoryGrid& grid, const HistorySums& sums);
 
 /// Root mean square of memory - x, [memories of the grid] [Pa].
 std::vector<double> memorySpreads(const HistoryGrid& grid, const HistorySums& sums);
+
+/// The smallest and the largest change p - x of the readings near each knot of a grid [Pa].
+class ChangeRange {
+ public:
+  explicit ChangeRange(const HistoryGrid& grid)
+      : grid_(&grid), least_(grid.knots.size(), kNone), largest_(grid.knots.size(), -kNone) {}
+  void add(double x, double change);
+  void merge(const ChangeRange& other);
+  /// Knots without readings take the range of their neighbour. Follows the last add() and merge().
+  void finish();
+  double limited(double x, double change) const;
+  const std::vector<double>& least() const { return least_; }
+  const std::vector<double>& largest() const { return largest_; }
+
+ private:
+  static constexpr double kNone = std::numeric_limits<double>::infinity();
+  const HistoryGrid* grid_;
+  std::vector<double> least_, largest_;  // [knots]
+};
 
 /// The model of these coefficients and spreads. Operators that move the answer by less than 0.01 % of the
 /// range are left out. Its deviation is empty.

@@ -237,23 +237,70 @@ std::size_t HistoryFolds::firstOperator(const HistoryModel& model) const {
   return (plays ? 0 : grid_.radii.size()) + static_cast<std::size_t>(place - all.begin());
 }
 
-void HistoryFolds::addErrors(std::size_t taxel, const Answers& answers, std::size_t protocol,
-                             std::size_t first_operator, const Eigen::VectorXd& coefficients,
-                             const OpenDeviation& open_deviation, HistoryErrors& errors) const {
+OpenDeviation HistoryFolds::openDeviation(const Eigen::VectorXd& coefficients,
+                                          const std::vector<double>& spreads) const {
+  return OpenDeviation({coefficients.data() + grid_.knots.size(), coefficients.data() + coefficients.size()},
+                       grid_.radii, spreads);
+}
+
+// visit(stream, scan, x, change, unknown, state) for each scan that counts: the change p - x without limits,
+// and the deviation from what is not known of the operators [Pa].
+template <typename Visit>
+void HistoryFolds::forEachChange(std::size_t taxel, const Answers& answers,
+                                 const Eigen::VectorXd& coefficients, const OpenDeviation& open_deviation,
+                                 Visit&& visit) const {
   Eigen::VectorXd features(Eigen::Index(grid_.features()));
   HistoryCourse course;
   for (const HistoryStream& stream : streams_) {
     stream.run(taxel, answers, course,
                [&](const HistoryStream::Scan& scan, double x, const double* state, const double* open) {
-                 if (scan.protocol != protocol) return;
                  historyFeatures(grid_, x, state, features.data());
                  const double unknown = open_deviation(open);
                  features.head(Eigen::Index(grid_.knots.size())) *= open_deviation.knownShare(unknown);
-                 errors.add({x, x + coefficients.dot(features), stream.recording().pressure[scan.number],
-                             unknown, state[first_operator] > x, stream.sections().direction[scan.number],
-                             scan.since_reversal});
+                 visit(stream, scan, x, coefficients.dot(features), unknown, state);
                });
   }
+}
+
+// The change is limited to that of the protocols that were not left out.
+void HistoryFolds::addErrors(std::size_t taxel, const Answers& answers, std::size_t protocol,
+                             std::size_t first_operator, const Eigen::VectorXd& coefficients,
+                             const OpenDeviation& open_deviation, HistoryErrors& errors) const {
+  ChangeRange range(grid_);
+  std::vector<HistoryErrors::Reading> left_out;
+  forEachChange(taxel, answers, coefficients, open_deviation,
+                [&](const HistoryStream& stream, const HistoryStream::Scan& scan, double x, double change,
+                    double unknown, const double* state) {
+                  if (scan.protocol != protocol) {
+                    range.add(x, change);
+                    return;
+                  }
+                  left_out.push_back({x, x + change, stream.recording().pressure[scan.number], unknown,
+                                      state[first_operator] > x, stream.sections().direction[scan.number],
+                                      scan.since_reversal});
+                });
+  range.finish();
+  for (HistoryErrors::Reading& reading : left_out) {
+    const double x = reading.static_answer;
+    reading.answer = x + range.limited(x, reading.answer - x);
+    errors.add(reading);
+  }
+}
+
+void HistoryFolds::setLimits(const Eigen::VectorXd& coefficients, const std::vector<double>& spreads,
+                             HistoryModel& model) const {
+  const OpenDeviation open = openDeviation(coefficients, spreads);
+  std::vector<ChangeRange> each(calibration_.no_model.size(), ChangeRange(grid_));
+  forEachModelledTaxel([&](std::size_t taxel) {
+    forEachChange(taxel, answersOfTables(taxel), coefficients, open,
+                  [&](const HistoryStream&, const HistoryStream::Scan&, double x, double change, double,
+                      const double*) { each[taxel].add(x, change); });
+  });
+  ChangeRange all(grid_);
+  for (const ChangeRange& own : each) all.merge(own);
+  all.finish();
+  model.least_change = all.least();
+  model.largest_change = all.largest();
 }
 
 HistoryErrors HistoryFolds::errors(const HistoryModel& model,
@@ -263,9 +310,7 @@ HistoryErrors HistoryFolds::errors(const HistoryModel& model,
   const HistoryErrors none(protocols_.highest, known);
   std::vector<HistoryErrors> each(calibration_.no_model.size(), none);
   std::vector<OpenDeviation> open;
-  for (const Eigen::VectorXd& own : coefficients)
-    open.emplace_back(std::vector<double>(own.data() + grid_.knots.size(), own.data() + own.size()),
-                      grid_.radii, spreads);
+  for (const Eigen::VectorXd& own : coefficients) open.push_back(openDeviation(own, spreads));
   forEachModelledTaxel([&](std::size_t taxel) {
     const std::vector<Answers> answers = answersWithoutEach(taxel);
     for (std::size_t g = 0; g < count(); ++g)

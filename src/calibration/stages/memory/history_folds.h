@@ -78,6 +78,10 @@ class HistoryFolds {
   /// With the tables of the calibration, which were trained on all protocols.
   HistorySums whole() const;
 
+  /// Limits the change of a model of these coefficients to that of training.
+  void setLimits(const Eigen::VectorXd& coefficients, const std::vector<double>& spreads,
+                 HistoryModel& model) const;
+
   /// Errors of the readings of each protocol, predicted without it. `coefficients` [protocols] were trained
   /// without the protocol, `model` on all of them. `spreads`: see memorySpreads(). `known`: see
   /// HistoryErrors.
@@ -91,6 +95,10 @@ class HistoryFolds {
   std::vector<Answers> answersWithoutEach(std::size_t taxel) const;
   Answers answersOfTables(std::size_t taxel) const;
   void addRows(std::size_t taxel, const Answers& answers, std::size_t left_out, LeftOutSums& sums) const;
+  OpenDeviation openDeviation(const Eigen::VectorXd& coefficients, const std::vector<double>& spreads) const;
+  template <typename Visit>
+  void forEachChange(std::size_t taxel, const Answers& answers, const Eigen::VectorXd& coefficients,
+                     const OpenDeviation& open_deviation, Visit&& visit) const;
   void addErrors(std::size_t taxel, const Answers& answers, std::size_t protocol, std::size_t first_operator,
                  const Eigen::VectorXd& coefficients, const OpenDeviation& open_deviation,
                  HistoryErrors& errors) const;

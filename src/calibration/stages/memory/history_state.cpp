@@ -8,8 +8,7 @@ namespace fsr::calibration {
 
 namespace {
 
-constexpr double kLargest = 1e30;    // answer [Pa]; a map holds no infinite pressure
-constexpr double kNegligible = 0.1;  // of the smallest deviation: it then grows by 0.5 %
+constexpr double kLargest = 1e30;  // answer [Pa]; a map holds no infinite pressure
 
 std::vector<double> weightsOf(const HistoryModel& model) {
   std::vector<double> weights = model.play_weight;
@@ -22,6 +21,10 @@ std::vector<double> spreadsOf(const HistoryModel& model) {
   if (!model.memory_spread.empty()) return model.memory_spread;
   return std::vector<double>(model.time_constant.size(),
                              (model.knot.back() - model.knot.front()) / std::sqrt(12.0));
+}
+
+std::vector<double> limitsOf(const HistoryModel& model, const std::vector<double>& limits, double none) {
+  return limits.empty() ? std::vector<double>(model.knot.size(), none) : limits;
 }
 
 }  // namespace
@@ -40,7 +43,7 @@ OpenDeviation::OpenDeviation(std::vector<double> weights, const std::vector<doub
   const std::size_t plays = radii.size();
   double whole = 0;
   for (std::size_t k = 0; k < each_.size(); ++k) {
-    each_[k] = std::abs(each_[k]) * (k < plays ? 1 / std::sqrt(3.0) : spreads[k - plays]);
+    each_[k] = std::abs(each_[k]) * (k < plays ? 1 : spreads[k - plays]);
     whole += each_[k] * (k < plays ? radii[k] : 1);
   }
   if (whole > 0) per_whole_ = 1 / whole;
@@ -50,26 +53,29 @@ HistoryState::HistoryState(const HistoryModel& model, std::size_t taxels)
     : operators_(model.radius, model.time_constant, model.knot.back()),
       weights_(weightsOf(model)),
       correction_(model.knot, model.correction),
+      least_change_(model.knot, limitsOf(model, model.least_change, -kLargest)),
+      largest_change_(model.knot, limitsOf(model, model.largest_change, kLargest)),
       loading_deviation_(model.deviation_knot, model.loading_deviation),
       unloading_deviation_(model.deviation_knot, model.unloading_deviation),
       open_deviation_(weights_, model.radius, spreadsOf(model)),
-      negligible_(kNegligible * model.smallestDeviation()),
       steps_(operators_.memories()),
       spell_steps_(operators_.memories()),
-      known_(taxels, Known::kNothing),
       taxels_(taxels),
-      limited_(taxels),
       states_(taxels * operators_.size()),
       open_(taxels * operators_.size()) {
   for (const double weight : weights_) weight_sum_ += weight;
 }
 
 void HistoryState::forget() noexcept {
-  std::fill(known_.begin(), known_.end(), Known::kNothing);
+  setKnown(HistoryTaxel::Known::kNothing);
 }
 
 void HistoryState::rest() noexcept {
-  std::fill(known_.begin(), known_.end(), Known::kRest);
+  setKnown(HistoryTaxel::Known::kRest);
+}
+
+void HistoryState::setKnown(HistoryTaxel::Known known) noexcept {
+  for (HistoryTaxel& taxel : taxels_) taxel.known = known;
 }
 
 void HistoryState::beginScan(double time) noexcept {
@@ -85,62 +91,42 @@ void HistoryState::beginScan(double time) noexcept {
 }
 
 // Taxels that return together share their steps.
-const HistoryState::Steps& HistoryState::stepsOfSpell(double duration) noexcept {
+const HistoryOperators::Step* HistoryState::stepsOfSpell(double duration) noexcept {
   if (duration != spell_) operators_.stepsOver(duration, spell_steps_.data());
   spell_ = duration;
-  return spell_steps_;
+  return spell_steps_.data();
 }
 
 void HistoryState::atLeast(std::size_t taxel, double pressure) noexcept {
   if (!std::isfinite(pressure)) return;
   taxels_[taxel].limit = pressure;
-  limited_[taxel] = time_;
-}
-
-// Takes a reading into the state of a taxel.
-void HistoryState::meet(std::size_t taxel, double x) noexcept {
-  HistoryTaxel& own = taxels_[taxel];
-  double* const state = &states_[taxel * operators_.size()];
-  double* const open = &open_[taxel * operators_.size()];
-  if (known_[taxel] != Known::kReadings) {
-    operators_.start(x, state, open);
-    own.open = known_[taxel] == Known::kNothing;
-    known_[taxel] = Known::kReadings;
-  } else if (own.at < before_ || time_ - own.at > kLongestGap) {
-    if (!own.open) std::fill_n(open, operators_.size(), 0.0);
-    if (limited_[taxel] != before_) own.limit = -HistoryOperators::kNone;
-    operators_.advanceUnseen(own.last, x, own.limit, stepsOfSpell(time_ - own.at).data(), state, open);
-    own.open = true;
-  } else if (own.open) {
-    operators_.advanceOpen(own.last, x, steps_.data(), state, open);
-  } else {
-    operators_.advance(own.last, x, steps_.data(), state);
-  }
-  own.last = x;
-  own.at = time_;
-  own.limit = -HistoryOperators::kNone;
+  taxels_[taxel].limited_at = time_;
 }
 
 HistoryAnswer HistoryState::correct(std::size_t taxel, bool frozen, float& pressure,
                                     float& deviation) noexcept {
   const double x = static_cast<double>(pressure);
+  HistoryTaxel& own = taxels_[taxel];
   if (frozen || !std::isfinite(x)) {
     // The next reading may be one under load.
-    if (known_[taxel] == Known::kRest) known_[taxel] = Known::kNothing;
+    if (own.known == HistoryTaxel::Known::kRest) own.known = HistoryTaxel::Known::kNothing;
     return HistoryAnswer::kNoReading;
   }
-  meet(taxel, x);
-  HistoryTaxel& own = taxels_[taxel];
-  const double* const state = &states_[taxel * operators_.size()];
-  const double unknown = own.open ? open_deviation_(&open_[taxel * operators_.size()]) : 0;
+  double* const state = states_.data() + taxel * operators_.size();
+  double* const open = open_.data() + taxel * operators_.size();
+  operators_.meet(
+      own, x, time_, before_, steps_.data(), [this](double spell) { return stepsOfSpell(spell); }, state,
+      open);
+  const double unknown = own.open ? open_deviation_(open) : 0;
   double sum = 0;
   for (std::size_t k = 0; k < weights_.size(); ++k) sum += weights_[k] * state[k];
-  const double corrected = x + correction_(x) * open_deviation_.knownShare(unknown) + (sum - weight_sum_ * x);
+  const EvenPlace at = correction_.placeOf(x);
+  const double change = correction_.at(at) * open_deviation_.knownShare(unknown) + (sum - weight_sum_ * x);
+  const double corrected = x + std::min(std::max(change, least_change_.at(at)), largest_change_.at(at));
   if (!(std::abs(corrected) < kLargest)) return HistoryAnswer::kNoReading;
   pressure = static_cast<float>(corrected);
   const bool unloading = !weights_.empty() && state[0] > x;
   const double settled = unloading ? unloading_deviation_(corrected) : loading_deviation_(corrected);
-  own.open = unknown > negligible_;
   deviation = static_cast<float>(own.open ? std::hypot(settled, unknown) : settled);
   return isSettled(settled, unknown) ? HistoryAnswer::kSettled : HistoryAnswer::kOpen;
 }

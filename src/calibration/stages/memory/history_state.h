@@ -35,16 +35,32 @@ class EvenLine {
     return {below, at - static_cast<double>(below)};
   }
 
-  double operator()(double x) const {
-    const EvenPlace at = place(x, first_, per_unit_, values_.size());
-    return values_[at.below] + at.share * (values_[at.below + 1] - values_[at.below]);
+  EvenPlace placeOf(double x) const { return place(x, first_, per_unit_, values_.size()); }
+  double at(const EvenPlace& place) const {
+    return values_[place.below] + place.share * (values_[place.below + 1] - values_[place.below]);
   }
+  double operator()(double x) const { return at(placeOf(x)); }
 
  private:
   double first_ = 0;
   double per_unit_ = 0;  // knots for each unit
   std::vector<double> values_;
 };
+
+/// The course of one taxel, as training and the live map follow it.
+struct HistoryTaxel {
+  enum class Known : std::uint8_t { kNothing, kRest, kReadings };
+
+  Known known = Known::kNothing;  ///< of the time before its next reading
+  bool open = false;              ///< something of its operators is open
+  double last = 0;                ///< x of its last reading [Pa]
+  double at = 0;                  ///< time of its last reading [s]
+  double limit = 0;               ///< least pressure of its last saturated scan [Pa]
+  double limited_at = -std::numeric_limits<double>::infinity();  ///< time of that scan [s]
+};
+
+/// Inputs between scans that are further apart are not known [s].
+constexpr double kLongestGap = 60;
 
 /// Play operators and fading memories that are driven by one input. The operators are constant. The caller
 /// stores two arrays with a number for each operator, plays first: `state`, the estimate, and `open`, what is
@@ -109,6 +125,13 @@ class HistoryOperators {
       open[radii_.size() + k] += (1 - open[radii_.size() + k]) * steps[k].fade;
   }
 
+  /// Takes the input `x` at `time` [s] into the course of one sensor; training and live maps call this alone.
+  /// `before`: time of the scan before [s]. `steps`: of the time between both. `stepsOf(duration)` returns a
+  /// pointer to the steps over a spell without inputs [s].
+  template <typename StepsOf>
+  void meet(HistoryTaxel& own, double x, double time, double before, const Step* steps, StepsOf&& stepsOf,
+            double* state, double* open) const;
+
   static constexpr double kNone = std::numeric_limits<double>::infinity();
   static constexpr double kNothing = 1e-12;  // share of a memory
 
@@ -126,6 +149,13 @@ class HistoryOperators {
     state = (span.low + span.high) / 2;
     open = (span.high - span.low) / 2;
   }
+  // Whether more than a thousandth of an operator is open.
+  bool isOpen(const double* open) const {
+    constexpr double kNearlyAll = 1e-3;
+    for (std::size_t j = 0; j < radii_.size(); ++j)
+      if (open[j] > kNearlyAll * radii_[j]) return true;
+    return std::any_of(open + radii_.size(), open + size(), [](double share) { return share > kNearlyAll; });
+  }
   void advanceMemories(double from, double to, const Step* steps, double* state) const {
     double* const memory = state + radii_.size();
     for (std::size_t k = 0; k < memories_.size(); ++k) memory[k] = steps[k](from, to, memory[k]);
@@ -136,9 +166,31 @@ class HistoryOperators {
   double highest_;
 };
 
-/// The standard deviation of an answer from what is open of its operators [Pa]. A play is taken as evenly
-/// distributed in its interval. The operators err in the same direction, since the same earlier load moved
-/// them all, so their parts add up.
+template <typename StepsOf>
+void HistoryOperators::meet(HistoryTaxel& own, double x, double time, double before, const Step* steps,
+                            StepsOf&& stepsOf, double* state, double* open) const {
+  if (own.known != HistoryTaxel::Known::kReadings) {
+    start(x, state, open);
+    own.open = own.known == HistoryTaxel::Known::kNothing;
+    own.known = HistoryTaxel::Known::kReadings;
+  } else if (own.at < before || time - own.at > kLongestGap) {
+    if (!own.open) std::fill_n(open, size(), 0.0);
+    advanceUnseen(own.last, x, own.limited_at == before ? own.limit : -kNone, stepsOf(time - own.at), state,
+                  open);
+    own.open = true;
+  } else if (own.open) {
+    advanceOpen(own.last, x, steps, state, open);
+  } else {
+    advance(own.last, x, steps, state);
+  }
+  if (own.open) own.open = isOpen(open);
+  own.last = x;
+  own.at = time;
+}
+
+/// The standard deviation of an answer from what is open of its operators [Pa]. A load that turned more
+/// than 2 r ago left a play at an end of its interval, so its deviation is half the interval. The operators
+/// err in the same direction, since the same earlier load moved them all, so their parts add up.
 class OpenDeviation {
  public:
   /// `weights` of the operators, plays first; `radii` of the plays; `spreads` of the memories, see
@@ -165,17 +217,6 @@ inline bool isSettled(double settled_deviation, double open_deviation) {
   return open_deviation * open_deviation <= 3 * settled_deviation * settled_deviation;
 }
 
-/// The course of one taxel, as training and the live map follow it.
-struct HistoryTaxel {
-  double last = 0;                          ///< x of its last reading [Pa]
-  double at = 0;                            ///< time of its last reading [s]
-  double limit = -HistoryOperators::kNone;  ///< least pressure in the scan before its next reading [Pa]
-  bool open = false;                        ///< something of its operators is open
-};
-
-/// Inputs between scans that are further apart are not known [s].
-constexpr double kLongestGap = 60;
-
 /// What HistoryState says of a reading.
 enum class HistoryAnswer : std::uint8_t {
   kNoReading,  ///< the static answer stands
@@ -195,7 +236,7 @@ class HistoryState {
 
   /// Forgets the readings of all taxels, or of one.
   void forget() noexcept;
-  void forget(std::size_t taxel) noexcept { known_[taxel] = Known::kNothing; }
+  void forget(std::size_t taxel) noexcept { taxels_[taxel].known = HistoryTaxel::Known::kNothing; }
   /// The sheet has lain at rest for long: with their next reading all is known of all taxels.
   void rest() noexcept;
 
@@ -210,20 +251,18 @@ class HistoryState {
   void atLeast(std::size_t taxel, double pressure) noexcept;
 
  private:
-  enum class Known : std::uint8_t { kNothing, kRest, kReadings };
   using Steps = std::vector<HistoryOperators::Step>;
 
-  const Steps& stepsOfSpell(double duration) noexcept;
-  void meet(std::size_t taxel, double x) noexcept;
+  const HistoryOperators::Step* stepsOfSpell(double duration) noexcept;
+  void setKnown(HistoryTaxel::Known known) noexcept;
 
   HistoryOperators operators_;
   std::vector<double> weights_;  // of the operators
   double weight_sum_ = 0;
-  EvenLine correction_;
+  EvenLine correction_, least_change_, largest_change_;  // at the same knots
   EvenLine loading_deviation_;
   EvenLine unloading_deviation_;
   OpenDeviation open_deviation_;
-  double negligible_;  // deviation from what is open [Pa]
 
   bool started_ = false;
   double time_ = 0;       // of the scan [s]
@@ -231,9 +270,7 @@ class HistoryState {
   double duration_ = -1;  // that steps_ are for [s]
   double spell_ = -1;     // that spell_steps_ are for [s]
   Steps steps_, spell_steps_;
-  std::vector<Known> known_;          // [taxels]
   std::vector<HistoryTaxel> taxels_;  // [taxels]
-  std::vector<double> limited_;       // [taxels], time of the limit [s]
   std::vector<double> states_;        // [taxels x operators]
   std::vector<double> open_;          // [taxels x operators], while the taxel is open
 };

@@ -75,19 +75,10 @@ void HistoryStream::begin(HistoryCourse& course) const {
   const double later = double(recording_->start_ns - course.start_ns) * 1e-9;
   course.start_ns = recording_->start_ns;
   course.taxel.at -= later;
+  course.taxel.limited_at -= later;
   course.before -= later;
   course.state.resize(operators_.size());
   course.open.resize(operators_.size());
-}
-
-// Whether something is still open; memories of which nearly all is known are closed.
-bool HistoryStream::closeWhatIsKnown(std::vector<double>& open) const {
-  constexpr double kNearlyAll = 1e-3;
-  const auto memories = open.begin() + static_cast<std::ptrdiff_t>(operators_.plays());
-  const bool some = std::any_of(open.begin(), memories, [](double width) { return width > 0; }) ||
-                    std::any_of(memories, open.end(), [](double share) { return share > kNearlyAll; });
-  if (!some) std::fill(memories, open.end(), 0.0);
-  return some;
 }
 
 // [conditions]. `last`: of the last surface of the stream before, then of this one. A sheet that lay on keeps

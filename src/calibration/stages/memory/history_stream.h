@@ -37,8 +37,7 @@ struct HistoryCourse {
   HistoryTaxel taxel;
   double before = 0;          ///< time of the scan before [s]
   std::int64_t start_ns = 0;  ///< of the recording whose time it is
-  bool known = false;
-  double zero = 0;  ///< that a tare subtracts on the last surface [Pa]
+  double zero = 0;            ///< that a tare subtracts on the last surface [Pa]
 };
 
 /// The scans of one recording in the order of time, as the operators of a history model meet them.
@@ -85,15 +84,19 @@ class HistoryStream {
   void run(std::size_t taxel, const std::vector<StaticAnswer>& answers, HistoryCourse& course,
            Visit&& visit) const {
     begin(course);
-    auto& [state, open, own, before, start_ns, known, zero] = course;
+    auto& [state, open, own, before, start_ns, zero] = course;
     std::vector<Step> spell(operators_.memories());
     const std::vector<double> zeros = zerosOf(taxel, answers, zero);
+    const auto over = [&](double duration) {
+      operators_.stepsOver(duration, spell.data());
+      return spell.data();
+    };
     dataset::TaxelCounts counts(*recording_, taxel);
     Spool<Scan>::Reader scans(scans_);
     Spool<Step>::Reader steps(steps_);
     for (std::size_t k = 0; k < scans_.rows(); ++k) {
       const Scan& scan = *scans[k];
-      known = known && !scan.starts;
+      if (scan.starts) own.known = HistoryTaxel::Known::kNothing;
       const double time = recording_->time[scan.number], pressure = recording_->pressure[scan.number];
       const std::uint16_t code = counts[scan.number];
       const StaticAnswer& answer = answers[scan.curvature_class];
@@ -102,29 +105,13 @@ class HistoryStream {
       const double x = answer.pressure[code] - zeros[recording_->condition[scan.number]];
       if (code >= recording_->full_scale) {
         own.limit = x;
+        own.limited_at = time;
         continue;
       }
-      if (!known) {
-        operators_.start(x, state.data(), open.data());
-        own.open = true;
-      } else if (own.at < last_time || time - own.at > kLongestGap) {
-        operators_.stepsOver(time - own.at, spell.data());
-        operators_.advanceUnseen(own.last, x, own.limit, spell.data(), state.data(), open.data());
-        own.open = true;
-      } else {
-        const Step* step = operators_.memories() > 0 ? steps[k] : nullptr;
-        if (k == 0) {  // its scan before is one of another recording
-          operators_.stepsOver(time - own.at, spell.data());
-          step = spell.data();
-        }
-        if (own.open) operators_.advanceOpen(own.last, x, step, state.data(), open.data());
-        if (!own.open) operators_.advance(own.last, x, step, state.data());
-      }
-      if (own.open) own.open = closeWhatIsKnown(open);
-      own.last = x;
-      own.at = time;
-      own.limit = -HistoryOperators::kNone;
-      known = true;
+      const Step* step = operators_.memories() > 0 ? steps[k] : nullptr;
+      if (k == 0) step = over(time - own.at);  // its scan before is one of another recording
+      operators_.meet(own, x, time, last_time, step, over, state.data(), open.data());
+      if (!own.open) std::fill(open.begin(), open.end(), 0.0);
       if (answer.trained(code, pressure)) visit(scan, x, state.data(), open.data());
     }
   }
@@ -132,7 +119,6 @@ class HistoryStream {
  private:
   bool starts(std::size_t scan, std::size_t before) const;
   void begin(HistoryCourse& course) const;
-  bool closeWhatIsKnown(std::vector<double>& open) const;
   std::vector<double> zerosOf(std::size_t taxel, const std::vector<StaticAnswer>& answers,
                               double& last) const;
 

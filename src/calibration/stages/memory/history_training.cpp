@@ -254,8 +254,9 @@ void trainHistory(const HistoryProblem& problem, const CalibrationOptions& optio
   if (verdict.family == HistoryFamily::kNone) return;
   const HistorySums whole = folds.whole();
   const std::vector<double> spreads = memorySpreads(folds.grid(), whole);
-  calibration.history =
-      historyModel(verdict.family, folds.grid(), fitHistory(verdict.family, folds.grid(), whole), spreads);
+  const Eigen::VectorXd coefficients = fitHistory(verdict.family, folds.grid(), whole);
+  calibration.history = historyModel(verdict.family, folds.grid(), coefficients, spreads);
+  folds.setLimits(coefficients, spreads, calibration.history);
   const HistoryErrors errors =
       folds.errors(calibration.history, verdict.coefficients, spreads, verdict.rmse / 2);
   errors.setDeviation(calibration.history);
