@@ -80,19 +80,19 @@ class Training {
 
   // Each stage is fitted on what those before it leave.
   void begin();
+  void temperature();
   void sessionZero();
   void tables();
   void remount();
   void curvatureRule();
   void scores();
   void memory();
-  void temperature();
   void shape();
   void budget();
-  static constexpr Stage kTables[] = {&Training::begin,   &Training::sessionZero,   &Training::tables,
-                                      &Training::remount, &Training::curvatureRule, &Training::scores,
-                                      &Training::memory};
-  static constexpr Stage kSheet[] = {&Training::temperature, &Training::shape, &Training::budget};
+  static constexpr Stage kStages[] = {&Training::begin,  &Training::temperature, &Training::sessionZero,
+                                      &Training::tables, &Training::remount,     &Training::curvatureRule,
+                                      &Training::scores, &Training::memory,      &Training::shape,
+                                      &Training::budget};
 
   Calibration describe();
   std::shared_ptr<compensation::TrainingStatistics> emptyStatistics() const;
@@ -110,7 +110,6 @@ class Training {
   const CalibrationProgress& progress_;
   const std::vector<dataset::Recording>* recordings_;
   std::vector<dataset::Recording> at_reference_;  // their pressures as they were at T_0; empty = as recorded
-  std::optional<TrainedRanges> recorded_;         // ranges of the pressures as recorded, if they are at T_0
 
   dataset::ConditionClasses classes_;
   std::vector<dataset::Sections> sections_;
@@ -129,28 +128,36 @@ class Training {
 };
 
 Calibration Training::run() {
-  for (const Stage stage : kTables) (this->*stage)();
-  for (const Stage stage : kSheet) (this->*stage)();
+  for (const Stage stage : kStages) (this->*stage)();
   return std::move(calibration_);
 }
 
 // The recordings in the form that training needs, and a calibration without tables.
 void Training::begin() {
   classes_ = dataset::poolConditions(*recordings_, compensation::poolingOf(options_.scheme));
-  sections_.clear();
   for (const dataset::Recording& recording : *recordings_)
     sections_.push_back(dataset::divideIntoSections(recording, options_.folds));
   plan_ = compensation::planScheme(options_.scheme, classes_.classes);
-  sessions_ = findSessions(*recordings_, classes_);
-  referToTraining(*recordings_, plan_, sessions_);
-  zeros_.clear();
   calibration_ = describe();
   sumReadings();
   findTaxelsWithoutModel(plan_, recordings_->front().name, calibration_);
 }
 
+// If the readings depend on the temperature, the pressures that follow are those at T_0.
+void Training::temperature() {
+  const TemperatureModel model =
+      chooseTemperature({*recordings_, classes_, sections_}, options_, calibration_);
+  if (!model.present()) return;
+  calibration_.temperature = model;
+  at_reference_ = atReference(*recordings_, model);
+  recordings_ = &at_reference_;
+  sumReadings();
+}
+
 // The choice of zeros needs a regressor. If there are zeros, the regressor is chosen again with them.
 void Training::sessionZero() {
+  sessions_ = findSessions(*recordings_, classes_);
+  referToTraining(*recordings_, plan_, sessions_);
   regressors_ = choose(options_, calibration_, plan_, progress_);
   zeros_ = chooseSessionZero({*recordings_, classes_, sections_, plan_, regressors_.whole, zeros_}, sessions_,
                              options_, calibration_);
@@ -186,9 +193,10 @@ void Training::curvatureRule() {
 
 void Training::scores() {
   if (!options_.scores) return;
-  const SessionScore session = calibration_.scores.session;
-  calibration_.scores = scoring_->summarise(classes_.classes);
-  calibration_.scores.session = session;
+  CalibrationScores scores = scoring_->summarise(classes_.classes);
+  scores.session = std::move(calibration_.scores.session);
+  scores.temperature = std::move(calibration_.scores.temperature);
+  calibration_.scores = std::move(scores);
   calibration_.scores.unseen = unseen_;
   calibration_.scores.remount = remounted_;
   calibration_.budget.intervals = remount_->assessable() ? intervalsOfMounts() : scoring_->intervals();
@@ -205,22 +213,8 @@ HistoryProblem Training::history() const {
 }
 
 void Training::memory() {
-  const settings::StepProgress memory(progress_, "history and temperature", 1);
+  const settings::StepProgress memory(progress_, "history", 1);
   trainHistory(history(), options_, calibration_);
-}
-
-// If the answer depends on the temperature, the tables and the memory are trained again, with the pressures
-// as they were at T_0.
-void Training::temperature() {
-  const TemperatureModel model = chooseTemperature(history(), options_, calibration_);
-  if (!model.present()) return;
-  const auto scores = calibration_.scores.temperature;
-  recorded_ = calibration_.trained;
-  at_reference_ = atReference(*recordings_, model);
-  recordings_ = &at_reference_;
-  for (const Stage stage : kTables) (this->*stage)();
-  calibration_.temperature = model;
-  calibration_.scores.temperature = scores;
 }
 
 void Training::shape() {
@@ -228,7 +222,6 @@ void Training::shape() {
 }
 
 void Training::budget() {
-  if (recorded_) calibration_.trained = *recorded_;
   if (!options_.scores) return;
   ErrorIntervals intervals = std::move(calibration_.budget.intervals);
   calibration_.budget = errorBudget(*recordings_, options_, *budget_scale_, scoring_->budget(), calibration_);

@@ -8,8 +8,8 @@
 
 #include "calibration/sources.h"
 #include "calibration/stages/memory/history_parts.h"
-#include "calibration/stages/session/session_check.h"
 #include "calibration/stages/session/session_rests.h"
+#include "calibration/stages/session/tare.h"
 #include "calibration/stages/temperature/temperature_course.h"
 #include "dataset/count_readers.h"
 #include "dataset/protocols.h"

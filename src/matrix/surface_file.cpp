@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -150,6 +151,16 @@ Surface readSurface(const settings::Settings& settings, MatrixSize size) {
 
 bool hasSurfaceForm(const settings::Settings& settings) {
   return countForms(settings) > 0;
+}
+
+std::vector<std::string> surfacesIn(const std::string& folder) {
+  std::vector<std::string> names;
+  std::error_code failed;
+  for (const auto& file : std::filesystem::directory_iterator(folder, failed)) {
+    if (file.path().extension() == ".yaml") names.push_back(file.path().stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
 }
 
 Surface readSurfaceFile(const std::string& path, MatrixSize size) {

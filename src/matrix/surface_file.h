@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "fsr_pressure_map/matrix/curvature.h"
 #include "settings/settings.h"
@@ -55,6 +56,8 @@ constexpr double kMaxCurvature = 100.0;  // [1/m]
 /// the number of values that a `taxels` form must have. Throws InputError. readSurface() ignores other keys
 /// of the caller; readSurfaceFile() refuses them, except a sound section `mesh` (mesh_place.h).
 Surface readSurface(const settings::Settings& settings, MatrixSize size);
+/// Names of the surface files in a folder, sorted.
+std::vector<std::string> surfacesIn(const std::string& folder);
 /// Whether the settings contain one of these forms and not only a name.
 bool hasSurfaceForm(const settings::Settings& settings);
 Surface readSurfaceFile(const std::string& path, MatrixSize size);

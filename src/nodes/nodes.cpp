@@ -12,14 +12,10 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "ros/driver/driver.h"
-#include "ros/live/calibration_server.h"
-#include "ros/live/curvature_server.h"
-#include "ros/live/limb_server.h"
 #include "ros/live/parameters.h"
 #include "ros/live/rig_emulator.h"
 #include "ros/live/serve.h"
-#include "ros/live/training_server.h"
-#include "ros/live/view_server.h"
+#include "ros/live/servers.h"
 #include "ros/recording/conduct_server.h"
 #include "ros/recording/rechecker.h"
 #include "ros/recording/recorder.h"
@@ -40,11 +36,31 @@ void closeOnSignals() {
   }
 }
 
-// A node whose server does everything in callbacks, which come in this number of threads.
-template <typename Server, std::uint32_t threads = 1>
+// The main part of a node that roslaunch starts again when it ends: makes its server, and spins. A wrong
+// setting does not end the node where roslaunch started it, which would fill the screen each second: it is
+// said once, and the node waits until it is put right. A node that was started alone ends with status 2.
+template <MakeServer maker>
+int serve() {
+  return runNode([] {
+    const ros::NodeHandle handle, private_handle("~");
+    Server server;
+    const auto made = [&] { server = maker(handle, private_handle); };
+    std::string said;
+    const auto say = [&](const std::string& sentence) {
+      if (said != sentence)
+        ROS_FATAL_STREAM(sentence << " (" << ros::this_node::getName() << " tries again each second)");
+      said = sentence;
+    };
+    if (!private_handle.hasParam("launched")) made();
+    if (server || makeUntilRight(made, say)) ros::spin();
+  });
+}
+
+// A node whose callbacks come in this number of threads.
+template <MakeServer maker, std::uint32_t threads = 1>
 int spin() {
   return runNode([] {
-    const Server server(ros::NodeHandle{}, ros::NodeHandle{"~"});
+    const Server server = maker(ros::NodeHandle{}, ros::NodeHandle{"~"});
     ros::MultiThreadedSpinner(threads).spin();
   });
 }
@@ -86,24 +102,24 @@ int record() {
 
 int nodeMain(const std::string& name, int argc, char** argv) {
   static const std::map<std::string, int (*)()> nodes = {
-      {"calibration", serve<CalibrationServer>},
+      {"calibration", serve<makeCalibrationServer>},
       {"conduct", conduct},
-      {"curvature", serve<CurvatureServer>},
-      {"driver", serve<Driver>},
-      {"limb", spin<LimbServer>},
+      {"curvature", serve<makeCurvatureServer>},
+      {"driver", serve<makeServer<Driver>>},
+      {"limb", spin<makeLimbServer>},
       {"recheck", recheck},
       {"recorder", record},
-      {"rig_emulator", spin<RigEmulator>},
-      {"session", serve<SessionServer>},
-      {"training", spin<TrainingServer, 2>},  // messages are collected while ~train runs
-      {"view", serve<ViewServer>}};
+      {"rig_emulator", spin<makeServer<RigEmulator>>},
+      {"session", serve<makeServer<SessionServer>>},
+      {"training", spin<makeTrainingServer, 2>},  // messages are collected while ~train runs
+      {"view", serve<makeViewServer>}};
   ros::init(argc, argv, name == "recorder" ? "record" : name);
   return nodes.at(name)();
 }
 
 /// A node as a nodelet. As serve() does it: where roslaunch started it, a wrong setting is said once, and
 /// tried again each second. Elsewhere the manager reports that the nodelet did not load.
-template <typename Server>
+template <MakeServer make_server>
 class ServerNodelet : public nodelet::Nodelet {
  private:
   void onInit() override {
@@ -120,8 +136,7 @@ class ServerNodelet : public nodelet::Nodelet {
   }
 
   void make() {
-    fsr::settings::inSentences(
-        [this] { server_ = std::make_unique<Server>(getNodeHandle(), getPrivateNodeHandle()); });
+    fsr::settings::inSentences([this] { server_ = make_server(getNodeHandle(), getPrivateNodeHandle()); });
   }
 
   void makeAgain() {
@@ -136,12 +151,12 @@ class ServerNodelet : public nodelet::Nodelet {
 
   ros::WallTimer again_;
   std::string said_;
-  std::unique_ptr<Server> server_;
+  Server server_;
 };
 
-class DriverNodelet : public ServerNodelet<Driver> {};
-class CalibrationNodelet : public ServerNodelet<CalibrationServer> {};
-class ViewNodelet : public ServerNodelet<ViewServer> {};
+class DriverNodelet : public ServerNodelet<makeServer<Driver>> {};
+class CalibrationNodelet : public ServerNodelet<makeCalibrationServer> {};
+class ViewNodelet : public ServerNodelet<makeViewServer> {};
 
 }  // namespace fsr_ros
 

@@ -1,4 +1,4 @@
-#include "report/budget_report.h"
+#include "report/calibration_report.h"
 
 #include <algorithm>
 #include <cmath>
@@ -168,71 +168,11 @@ std::string scaleTable(const ErrorIntervals& intervals) {
          table.text();
 }
 
-Json json(const calibration::BinScale& bin) {
-  return {{"pressure_pa", bin.pressure},
-          {"factor", bin.factor},
-          {"within_tables", bin.within_tables},
-          {"within_map", bin.within_map}};
-}
-
-Json scaleJson(const calibration::DeviationScale& scale) {
-  if (!scale.present()) return nullptr;
-  Json bins = Json::object();
-  for (std::size_t bin = 0; bin < statistics::kPressureBins; ++bin)
-    bins[statistics::pressureBinName(bin) + " kPa"] = json(scale.bins[bin]);
-  return {{"bins", bins},
-          {"whole", {{"within_tables", scale.whole.within_tables}, {"within_map", scale.whole.within_map}}}};
-}
-
-Json json(const calibration::BinIntervals& bin) {
-  return {{"units", bin.units},
-          {"factor_68", bin.factor[0]},
-          {"covered_68", bin.covered[0]},
-          {"factor_95", bin.factor[1]},
-          {"covered_95", bin.covered[1]}};
-}
-
-Json intervalsJson(const ErrorIntervals& intervals) {
-  if (!intervals.present()) return nullptr;
-  Json bins = Json::object();
-  for (std::size_t bin = 0; bin < statistics::kPressureBins; ++bin)
-    bins[statistics::pressureBinName(bin) + " kPa"] = json(intervals.bins[bin]);
-  return {{"unit", unitsOf(intervals)},
-          {"bins", bins},
-          {"whole", json(intervals.whole)},
-          {"loading",
-           {{"covered_68", intervals.by_direction[0][0]}, {"covered_95", intervals.by_direction[1][0]}}},
-          {"unloading",
-           {{"covered_68", intervals.by_direction[0][1]}, {"covered_95", intervals.by_direction[1][1]}}},
-          {"deviation_of_the_map", scaleJson(intervals.scale)},
-          {"taxels", {{"covered_68", intervals.by_taxel[0]}, {"covered_95", intervals.by_taxel[1]}}}};
-}
-
 }  // namespace
 
 std::string budgetText(const ErrorBudget& budget, const matrix::Layout& layout) {
   if (!budget.present()) return "Error budget: none, since scores were not computed.\n";
   return budgetTable(budget) + intervalTable(budget.intervals, layout) + scaleTable(budget.intervals);
-}
-
-Json budgetJson(const ErrorBudget& budget) {
-  if (!budget.present()) return nullptr;
-  Json lines = Json::array();
-  for (const BudgetLine& line : budget.lines) {
-    lines.push_back({{"name", line.name},
-                     {"source", calibration::budgetSourceName(line.source)},
-                     {"part", calibration::budgetPartName(line.part)},
-                     {"standard_pa", line.standard},
-                     {"added_pa", line.added},
-                     {"note", line.note}});
-  }
-  return {{"share_of_range", calibration::kBudgetShares},
-          {"pressure_pa", budget.pressure},
-          {"lines", lines},
-          {"held_out_pa", budget.held_out},
-          {"combined_pa", budget.combined},
-          {"coverage_factor", 2},
-          {"intervals", intervalsJson(budget.intervals)}};
 }
 
 }  // namespace fsr::report

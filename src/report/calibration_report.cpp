@@ -4,8 +4,6 @@
 #include <cmath>
 
 #include "calibration/stages/deviation/new_mount_line.h"
-#include "report/budget_report.h"
-#include "report/history_report.h"
 #include "report/text_table.h"
 #include "settings/number_text.h"
 

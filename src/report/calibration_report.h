@@ -2,8 +2,10 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "fsr_pressure_map/calibration/calibration.h"
+#include "report/result_json.h"
 
 namespace fsr::report {
 
@@ -30,6 +32,26 @@ std::string learnedText(const calibration::Calibration& calibration);
 
 /// The model in a few words: "forest", "grnn, bandwidth 0.0312 (chosen)".
 std::string modelText(const calibration::Calibration& calibration);
+
+// What training chose beside the tables, and why: the tare at the start of a session, the model of the
+// temperature, and that of the sheet's memory. "" where nothing was asked for.
+
+std::string sessionText(const calibration::SessionScore& score);
+std::string temperatureText(const calibration::Calibration& calibration);
+/// The choice with the errors on protocols that were left out, and errors by direction and by time since the
+/// last reversal.
+std::string historyText(const calibration::Calibration& calibration);
+/// The choice with the errors of each family on each protocol.
+std::string historyChoiceText(const calibration::HistoryScore& score);
+Json historyProtocolsJson(const calibration::HistoryScore& score);
+/// A table of errors of the static answer and with a model of the sheet's memory; "" if there are none.
+std::string historyTable(const std::vector<calibration::HistoryScore::Part>& parts);
+
+/// The error budget in kPa, then the intervals with what they covered. One sentence where the calibration has
+/// none.
+std::string budgetText(const calibration::ErrorBudget& budget, const matrix::Layout& layout);
+/// The same; null where there is none. Numbers are SI.
+Json budgetJson(const calibration::ErrorBudget& budget);
 
 /// The whole calibration but its tables and statistics, as indented JSON. Numbers are SI; null = no value.
 std::string calibrationJson(const calibration::Calibration& calibration);

@@ -6,7 +6,7 @@
 
 #include "calibration/stages/deviation/new_mount_line.h"
 #include "fsr_pressure_map/calibration/calibration_file.h"
-#include "report/history_report.h"
+#include "report/calibration_report.h"
 #include "report/result_json.h"
 #include "report/text_table.h"
 #include "settings/file_kind.h"

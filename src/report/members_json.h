@@ -207,6 +207,27 @@ void members(List& list, dataset::SensorIdentity& sensor) {
 }
 
 template <typename List>
+void members(List& list, matrix::Layout& layout) {
+  list("rows", layout.size.rows)("columns", layout.size.columns);
+  list("pitch_x", layout.pitch_x)("pitch_y", layout.pitch_y);
+}
+
+template <typename List>
+void members(List& list, calibration::HistoryScore::Protocol& protocol) {
+  list("protocol", protocol.name).under("rmse", [&](auto& rmse) {
+    constexpr const char* kFamilies[] = {"static", "plays", "memories", "both"};
+    for (std::size_t f = 0; f < protocol.rmse.size(); ++f) rmse(kFamilies[f], protocol.rmse[f]);
+    rmse("correction_alone", protocol.corrected_rmse);
+  });
+}
+
+template <typename List>
+void members(List& list, calibration::HistoryScore::Part& part) {
+  list("readings", part.name)("count", part.readings)("static_rmse", part.static_rmse)("rmse", part.rmse);
+  list("within_one_deviation", part.within_one_deviation);
+}
+
+template <typename List>
 void members(List& list, calibration::SourceBag& bag) {
   list("name", bag.name)("sha256", bag.sha256)("scans", bag.scans);
 }

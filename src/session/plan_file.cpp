@@ -5,6 +5,7 @@
 #include <set>
 
 #include "matrix/surface_file.h"
+#include "settings/joined.h"
 #include "settings/number_text.h"
 #include "settings/yaml_text.h"
 #include "simulation/settings_text.h"
@@ -96,16 +97,6 @@ std::vector<Break> readBreaks(const Settings& settings) {
   return breaks;
 }
 
-std::vector<std::string> surfacesIn(const std::string& folder) {
-  std::vector<std::string> names;
-  std::error_code failed;
-  for (const auto& file : fs::directory_iterator(folder, failed)) {
-    if (file.path().extension() == ".yaml") names.push_back(file.path().stem().string());
-  }
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
 // ---- text ----------------------------------------------------------------------------------------
 
 // A radius that a reader converts back to this curvature [1/m]. Few digits come first: 1/0.07 is 0.07 again.
@@ -169,8 +160,7 @@ matrix::Surface surfaceInFolder(const std::string& name, const std::string& fold
   const fs::path path = fs::path(folder) / (name + ".yaml");
   const bool plain = name.find('/') == std::string::npos;
   if (plain && fs::exists(path)) return matrix::readSurfaceFile(path.string(), size);
-  std::string known;
-  for (const std::string& one : surfacesIn(folder)) known += (known.empty() ? "" : ", ") + one;
+  std::string known = settings::joined(matrix::surfacesIn(folder));
   if (known.empty()) known = fs::is_directory(folder) ? "none" : "none, because there is no such folder";
   throw settings::InputError(field + ", but " + folder + " has no file of this surface; it has " + known);
 }

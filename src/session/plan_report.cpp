@@ -139,12 +139,11 @@ constexpr Question kQuestions[] = {
      nullptr, [](const Contents& c) { return double(c.cycles * double(c.curvatures.size()) >= 3); }},
 };
 
-// "The error of another mount (surfaces: 1 instead of 6)."
-std::string told(const Question& question, double amount, double instead_of = 0) {
+// "The error of another mount (surfaces: 6)."
+std::string told(const Question& question, double amount) {
   std::string text = question.what;
   if (question.unit != nullptr)
-    text += std::string(" (") + question.unit + ": " + roundedText(amount, 3) +
-            (instead_of > 0 ? " instead of " + roundedText(instead_of, 3) : "") + ")";
+    text += std::string(" (") + question.unit + ": " + roundedText(amount, 3) + ")";
   return text + ".";
 }
 
@@ -276,30 +275,6 @@ std::vector<std::string> limitsOf(const SessionPlan& plan) {
   }
   sentences.push_back(rangeText(contents));
   if (contents.mounts < kUnitsFor95) sentences.push_back(coverageText(contents.mounts));
-  return sentences;
-}
-
-std::vector<std::string> lacksBeside(const SessionPlan& whole, const SessionPlan& plan) {
-  const Contents more = contentsOf(whole), less = contentsOf(plan);
-  Sentences sentences;
-  for (const Question& one : kQuestions) {
-    const double from = one.amount(more), to = one.amount(less);
-    if (from > 0 && to == 0) sentences.push_back(untold(one));
-    if (to > 0 && to < from) sentences.push_back(told(one, to, from));
-  }
-  const Sentences told_by_whole = effectsToldBy(whole);
-  for (auto& [reason, effects] : effectsByReason(less)) {
-    Sentences lost;
-    for (const std::string& id : effects) {
-      if (!reason.empty() && std::count(told_by_whole.begin(), told_by_whole.end(), id)) lost.push_back(id);
-    }
-    if (!lost.empty())
-      sentences.push_back("discrepancy cannot name alone: " + settings::joined(lost) + " (" + reason + ").");
-  }
-  if (less.curvatures.front() > more.curvatures.front() || less.curvatures.back() < more.curvatures.back() ||
-      less.highest < more.highest)
-    sentences.push_back(rangeText(less));
-  if (less.mounts < std::min(more.mounts, kUnitsFor95)) sentences.push_back(coverageText(less.mounts));
   return sentences;
 }
 

@@ -23,9 +23,6 @@ std::vector<std::string> effectsToldBy(const SessionPlan& plan);
 /// Sentences on what recordings of the plan cannot tell.
 std::vector<std::string> limitsOf(const SessionPlan& plan);
 
-/// What `plan` cannot tell, or less well, but `whole` can; empty = nothing.
-std::vector<std::string> lacksBeside(const SessionPlan& whole, const SessionPlan& plan);
-
 /// A line for each step: time since the begin, mount, instruction.
 std::string stepsText(const SessionPlan& plan);
 

@@ -90,4 +90,10 @@ void FreshFile::finish() {
   fresh_.finish();
 }
 
+void replaceFile(const std::string& path, const std::string& content) {
+  FreshFile file(path, kindOf(content));
+  file.write(content);
+  file.finish();
+}
+
 }  // namespace fsr::settings

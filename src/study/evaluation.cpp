@@ -6,52 +6,9 @@
 #include "dataset/count_readers.h"
 #include "fsr_pressure_map/statistics/metrics.h"
 #include "matrix/for_each_taxel.h"
-#include "statistics/streamed_metrics.h"
+#include "statistics/reference_scatter.h"
 
 namespace fsr::study {
-
-namespace {
-
-constexpr std::size_t kMostRows = 8u << 20;  // of all rows [bytes]
-
-}  // namespace
-
-ErrorRows::ErrorRows(std::size_t taxels, std::size_t length) : taxels_(taxels), length_(length) {
-  if (taxels * length * sizeof(float) <= kMostRows) {
-    memory_.resize(taxels * length);
-    return;
-  }
-  file_ = std::make_unique<File>();
-  file_->block.resize(taxels);
-}
-
-void ErrorRows::Writer::finish() {
-  if (filled_ == 0) return;
-  if (rows_.file_ == nullptr) {
-    std::copy_n(block_.begin(), filled_,
-                rows_.memory_.begin() + static_cast<std::ptrdiff_t>(taxel_ * rows_.length_ + written_));
-  } else {
-    File& file = *rows_.file_;
-    const std::lock_guard<std::mutex> lock(file.writing);
-    file.rows.append(block_.data(), sizeof block_);
-    file.block[taxel_].push_back(file.blocks++);
-  }
-  written_ += filled_;
-  filled_ = 0;
-}
-
-void ErrorRows::Reader::read() {
-  filled_ = std::min(kBlock, rows_.length_ - read_);
-  if (rows_.file_ == nullptr) {
-    std::copy_n(rows_.memory_.begin() + static_cast<std::ptrdiff_t>(taxel_ * rows_.length_ + read_), filled_,
-                block_.begin());
-  } else {
-    const File& file = *rows_.file_;
-    file.rows.read(block_.data(), sizeof block_, file.block[taxel_][read_ / kBlock] * sizeof block_);
-  }
-  read_ += filled_;
-  place_ = 0;
-}
 
 namespace {
 
@@ -112,17 +69,17 @@ statistics::ReferenceScatter referenceOf(const StudyData& data, const std::vecto
 // Scores the answers for one taxel and writes its row of errors.
 class TaxelScoring {
  public:
-  TaxelScoring(const StudyData& data, const StudyPlan& plan, std::size_t t, ErrorRows& errors)
+  TaxelScoring(const StudyData& data, const StudyPlan& plan, std::size_t t, std::vector<float>& errors)
       : data_(data),
         plan_(plan),
         counts_(dataset::taxelCounts(*data.recordings, data.taxels[t])),
-        errors_(errors, t) {}
+        errors_(errors) {}
 
   void add(const HeldOutAnswer& answer, std::size_t c, const ScanList& scans) {
     scans.forEach([&](const ScanPlace& scan) {
       const double error = answer(c, scan, counts_[scan.recording][scan.number]) - data_.pressure(scan);
       squares_ += error * error;
-      errors_.add(static_cast<float>(error));
+      errors_.push_back(static_cast<float>(error));
     });
   }
   // Follows the readings of a part.
@@ -133,7 +90,6 @@ class TaxelScoring {
     percent_.push_back(reference.rmsePercent(squares_) * own_range / range);
     squares_ = 0;
   }
-  void finish() { errors_.finish(); }
   double r2() const { return statistics::spreadOf(r2_).mean; }
   double rmsePercentMean() const { return statistics::spreadOf(percent_).mean; }
 
@@ -141,7 +97,7 @@ class TaxelScoring {
   const StudyData& data_;
   const StudyPlan& plan_;
   std::vector<dataset::TaxelCounts> counts_;
-  ErrorRows::Writer errors_;
+  std::vector<float>& errors_;
   double squares_ = 0;  // of the part [Pa^2]
   std::vector<double> r2_, percent_;
 };
@@ -190,12 +146,13 @@ Evaluation evaluate(const StudyData& data, const StudyMethod& method, const Vali
     });
     references.push_back(referenceOf(data, scans));
   }
-  result.errors = ErrorRows(data.taxels.size(), scored);
+  result.errors.resize(data.taxels.size());
   result.r2.resize(data.taxels.size());
   result.rmse_percent.resize(data.taxels.size());
   matrix::forEachTaxel(data.taxels.size(), plan.threads, [&](std::size_t t) {
     const TaxelReadings readings(data, grouping, data.taxels[t]);
-    TaxelScoring scoring(data, plan, t, result.errors);
+    result.errors[t].reserve(scored);
+    TaxelScoring scoring(data, plan, t, result.errors[t]);
     for (const FoldParts& fold : partsByFold(result.parts)) {
       const HeldOutAnswer answer = answers(t, readings, fold);
       for (std::size_t p = fold.first; p < fold.end; ++p) {
@@ -204,7 +161,6 @@ Evaluation evaluate(const StudyData& data, const StudyMethod& method, const Vali
         scoring.end(references[p]);
       }
     }
-    scoring.finish();
     result.r2[t] = scoring.r2();
     result.rmse_percent[t] = scoring.rmsePercentMean();
     if (done) done();

@@ -4,7 +4,6 @@
 #include <limits>
 #include <memory>
 
-#include "dataset/unnamed_file.h"
 #include "matrix/for_each_taxel.h"
 
 namespace fsr::study {
@@ -27,31 +26,6 @@ bool setTrainedCodes(const regression::CodeHistogram& readings, StaticAnswer& an
   answer.highest = static_cast<std::uint16_t>(count.rend() - last - 1);
   return true;
 }
-
-constexpr std::size_t kMostCorrected = 8u << 20;  // of a recording's corrected pressures [bytes]
-
-// The corrected pressures of the scans of one recording [Pa]; NaN = the static answer stands.
-class CorrectedPressures {
- public:
-  CorrectedPressures() { rows_.begin(1, 0); }
-  CorrectedPressures(const CorrectedPressures&) = delete;  // read_ points to rows_
-  CorrectedPressures& operator=(const CorrectedPressures&) = delete;
-
-  // Scans ascend.
-  void add(std::size_t scan, double pressure) {
-    addUntil(scan);
-    rows_.add(&pressure);
-  }
-  void addUntil(std::size_t scans) {
-    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-    while (rows_.rows() < scans) rows_.add(&kNone);
-  }
-  double operator[](std::size_t scan) { return *read_[scan]; }
-
- private:
-  dataset::RowSpool<double> rows_{kMostCorrected};
-  dataset::RowSpool<double>::Reader read_{rows_};
-};
 
 }  // namespace
 
@@ -111,17 +85,18 @@ HeldOutAnswer HistoryStudy::answer(std::size_t taxel, std::size_t fold, const Ta
   const std::vector<StaticAnswer> tables = staticAnswers(taxel, fold, readings);
   const Eigen::VectorXd& coefficients = verdict_.coefficients[fold];
   Eigen::VectorXd features(Eigen::Index(grid_.features()));
-  const auto corrected = std::make_shared<std::vector<CorrectedPressures>>(streams_.size());
+  // Of the scans of each recording [Pa]; NaN = the static answer stands.
+  const auto corrected = std::make_shared<std::vector<std::vector<double>>>(streams_.size());
   calibration::HistoryCourse course;
   for (const HistoryStream& stream : streams_) {
-    CorrectedPressures& own = (*corrected)[stream.number()];
+    std::vector<double>& own = (*corrected)[stream.number()];
+    own.assign(stream.recording().scans(), std::numeric_limits<double>::quiet_NaN());
     stream.run(taxel, tables, course,
                [&](const HistoryStream::Scan& scan, double x, const double* state, const double* /*open*/) {
                  if (scan.protocol != protocolOf(split_.folds[fold])) return;
                  calibration::historyFeatures(grid_, x, state, features.data());
-                 own.add(scan.number, x + coefficients.dot(features));
+                 own[scan.number] = x + coefficients.dot(features);
                });
-    own.addUntil(stream.recording().scans());
   }
   return [tables, corrected](std::size_t c, const ScanPlace& scan, std::uint16_t code) {
     const double pressure = (*corrected)[scan.recording][scan.number];

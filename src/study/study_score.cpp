@@ -6,7 +6,6 @@
 #include "dataset/count_readers.h"
 #include "statistics/error_bins.h"
 #include "statistics/samples.h"
-#include "statistics/streamed_metrics.h"
 
 namespace fsr::study {
 
@@ -20,19 +19,13 @@ std::string howScored(const StudyMethod& method, const Evaluation& evaluation) {
 
 void summarise(const StudyData& data, const Evaluation& evaluation, StudyScore& score) {
   statistics::ErrorBins bins;
-  statistics::StreamedSummary first, later;
-  const auto forEach = [&](const auto& visit) {
-    for (std::size_t t = 0; t < data.taxels.size(); ++t) {
-      evaluation.forEachError(
-          t, [&](const TestPart&, const ScanPlace& scan, float error) { visit(scan, error); });
-    }
-  };
-  forEach([&](const ScanPlace& scan, float error) {
-    bins.add(error, data.pressure(scan), data.direction(scan));
-    (data.inFirstCycle(scan) ? first : later).add(error);
-  });
-  forEach(
-      [&](const ScanPlace& scan, float error) { (data.inFirstCycle(scan) ? first : later).addAgain(error); });
+  statistics::ErrorTally first, later;
+  for (std::size_t t = 0; t < data.taxels.size(); ++t) {
+    evaluation.forEachError(t, [&](const TestPart&, const ScanPlace& scan, float error) {
+      bins.add(error, data.pressure(scan), data.direction(scan));
+      (data.inFirstCycle(scan) ? first : later).add(error);
+    });
+  }
   score.errors = bins.summarise();
   score.first_cycle = first.summarise();
   score.later_cycles = later.summarise();
@@ -46,7 +39,7 @@ StudyScore scoreOf(const StudyData& data, const StudyMethod& method, const Evalu
   score.label = method.label;
   score.model = "grnn";
   score.scored = howScored(method, evaluation);
-  score.scans = evaluation.errors.length();
+  score.scans = evaluation.errors.front().size();
   score.r2 = evaluation.r2;
   score.rmse_percent = evaluation.rmse_percent;
   score.r2_spread = statistics::spreadOf(evaluation.r2);

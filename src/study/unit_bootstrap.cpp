@@ -48,7 +48,7 @@ CycleUnits cycleUnits(const StudyData& data) {
 }
 
 CycleSums::CycleSums(const StudyData& data, const Evaluation& evaluation) {
-  values_.taxels = evaluation.errors.taxels();
+  values_.taxels = evaluation.errors.size();
   values_.models = evaluation.models;
   values_.cycles = data.cycles;
   values_.range = data.highest - data.lowest;

@@ -351,7 +351,7 @@ TEST(Calibrate, ReportsItsProgress) {
                                                                 {"choosing the bandwidth", 1},
                                                                 {"training the taxels", 0},
                                                                 {"training the taxels", 1},
-                                                                {"history and temperature", 0}};
+                                                                {"history", 0}};
   EXPECT_EQ(told, expected);
 }
 

@@ -1,4 +1,4 @@
-#include "emulator/pressure_course.h"
+#include "emulator/operator.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,10 @@
-#include "report/budget_report.h"
+#include "report/calibration_report.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "report/calibration_report.h"
 #include "support/squeezed.h"
 
 namespace fsr::report {

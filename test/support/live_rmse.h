@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "calibration/stages/session/session_check.h"
+#include "calibration/stages/session/tare.h"
 #include "calibration/stages/temperature/temperature_course.h"
 #include "fsr_pressure_map/calibration/calibrator.h"
 #include "fsr_pressure_map/dataset/recording.h"

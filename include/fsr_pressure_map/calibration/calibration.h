@@ -161,7 +161,7 @@ struct SessionScore {
 struct TemperatureScore {
   struct Group {
     std::string name;    ///< e.g. "ramps of 17 kPa/s", "recording 1_flat.bag"
-    double without = 0;  ///< RMSE of means over half a second [Pa]
+    double without = 0;  ///< RMSE of readings, full scale = highest pressure [Pa]
     double with = 0;
   };
   std::string choice;  ///< a sentence: what was chosen and why; empty = not asked for, or no thermometer

@@ -89,7 +89,7 @@ void temperatureScoresMembers(hdf5::Members& file, TemperatureScore& score) {
   file.rows<double>(
       "group_rmse", score.groups,
       [](TemperatureScore::Group& one) { return std::tie(one.without, one.with); }, {score.groups.size(), 2},
-      "Pa", "of means over half a second: without and with the model of the temperature");
+      "Pa", "of readings on a linear map: without and with the model of the temperature");
 }
 
 void scoresMembers(hdf5::Members& file, CalibrationScores& scores,

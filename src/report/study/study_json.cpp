@@ -1,4 +1,4 @@
-#include "report/history_report.h"
+#include "report/calibration_report.h"
 #include "report/study/study_members.h"
 #include "report/study/study_report.h"
 

@@ -115,25 +115,8 @@ void members(List& list, statistics::PaperRuleOptions& tests) {
 }
 
 template <typename List>
-void members(List& list, calibration::HistoryScore::Protocol& protocol) {
-  list("name", protocol.name)("rmse", protocol.rmse)("corrected_rmse", protocol.corrected_rmse);
-}
-
-template <typename List>
-void members(List& list, calibration::HistoryScore::Part& part) {
-  list("name", part.name)("readings", part.readings)("static_rmse", part.static_rmse)("rmse", part.rmse);
-  list("within_one_deviation", part.within_one_deviation);
-}
-
-template <typename List>
 void members(List& list, calibration::HistoryScore& score) {
   list("choice", score.choice)("protocols", score.protocols)("parts", score.parts);
-}
-
-template <typename List>
-void members(List& list, matrix::Layout& layout) {
-  list("rows", layout.size.rows)("columns", layout.size.columns);
-  list("pitch_x", layout.pitch_x)("pitch_y", layout.pitch_y);
 }
 
 template <typename List>

@@ -1,7 +1,7 @@
 #include <cmath>
 #include <limits>
 
-#include "report/history_report.h"
+#include "report/calibration_report.h"
 #include "report/study/study_report.h"
 #include "report/text_table.h"
 #include "settings/number_text.h"

@@ -63,12 +63,6 @@ void RecordFile::next() {
   take(nextHeader(), data_);
 }
 
-void RecordFile::skip() {
-  const std::uint32_t size = nextHeader();
-  if (size > size_ - position_) damaged("a record ends behind the file's end");
-  goTo(position_ + size);
-}
-
 void RecordFile::take(std::uint64_t size, std::string& into) {
   if (size > size_ - position_) damaged("a record ends behind the file's end");
   if (size > kLargestRecord) damaged("a record is larger than 256 MiB");

@@ -56,8 +56,6 @@ class RecordFile {
   void goTo(std::uint64_t position);
   /// Reads the next record into header() and data().
   void next();
-  /// The same without the data.
-  void skip();
   /// Reads the header of the next record and returns the size of its data, which are read next.
   std::uint32_t nextHeader();
   /// Reads `size` bytes.

@@ -154,6 +154,13 @@ class Walk {
   std::vector<Message> messages_;  // ascending
 };
 
+BagConnection connectionIn(std::string_view header, std::string_view data) {
+  return {std::string(field<std::string_view>(header, rosbag::TOPIC_FIELD_NAME)),
+          std::string(field<std::string_view>(data, rosbag::TYPE_FIELD_NAME)),
+          std::string(field<std::string_view>(data, "md5sum")),
+          std::string(field<std::string_view>(data, "message_definition"))};
+}
+
 }  // namespace
 
 BagWalk::BagWalk(const std::string& path) : path_(path) {
@@ -173,13 +180,6 @@ BagWalk::BagWalk(const std::string& path) : path_(path) {
           connectionIn(file.header(), file.data());
     if (kind == rosbag::OP_CHUNK_INFO) addCounts(file.data());
   }
-}
-
-BagConnection connectionIn(std::string_view header, std::string_view data) {
-  return {std::string(field<std::string_view>(header, rosbag::TOPIC_FIELD_NAME)),
-          std::string(field<std::string_view>(data, rosbag::TYPE_FIELD_NAME)),
-          std::string(field<std::string_view>(data, "md5sum")),
-          std::string(field<std::string_view>(data, "message_definition"))};
 }
 
 // Pairs of a connection and its number of messages in a chunk.

@@ -14,9 +14,6 @@ struct BagConnection {
   std::string definition;  ///< of the message type, as text
 };
 
-/// The connection that a record of a bag describes. Throws rosbag::BagFormatException.
-BagConnection connectionIn(std::string_view header, std::string_view data);
-
 /// A serialised message, in memory that belongs to the walk.
 struct MessageBytes {
   std::uint8_t* data;

@@ -27,7 +27,6 @@
 #include "exports/scan_record.h"
 #include "fsr_pressure_map/ros/pressure_map_message.h"
 #include "fsr_pressure_map/settings/input_error.h"
-#include "ros/bags/bag_stream.h"
 #include "ros/bags/loaded_calibration.h"
 #include "ros/bags/message_events.h"
 #include "ros/bags/sensor_topics.h"
@@ -44,7 +43,7 @@ class ScanContext {
  public:
   // `ambient`: ambient pressure [Pa]; none = the value in matrix_info, or 101325 without one. Throws
   // fsr::InputError.
-  ScanContext(const BagStream& bag, const SensorTopics& topics, std::optional<double> ambient);
+  ScanContext(const rosbag::Bag& bag, const SensorTopics& topics, std::optional<double> ambient);
 
   const fsr_pressure_map::MatrixInfo& board() const { return board_; }
   const std::shared_ptr<const fsr::matrix::Surface>& firstSurface() const { return first_surface_; }
@@ -62,12 +61,12 @@ class ScanContext {
  private:
   using Label = std::pair<std::int64_t, std::string>;  // stamp [ns], text that is valid from then on
 
-  void readBoard(const BagStream& bag, const SensorTopics& topics);
-  void readSeries(const BagStream& bag, const SensorTopics& topics);
-  void readLabels(const BagStream& bag, const SensorTopics& topics);
+  void readBoard(const rosbag::Bag& bag, const SensorTopics& topics);
+  void readSeries(const rosbag::Bag& bag, const SensorTopics& topics);
+  void readLabels(const rosbag::Bag& bag, const SensorTopics& topics);
   void findCycles(const std::vector<std::pair<std::int64_t, double>>& pressure);
   template <typename Message, typename Take>
-  void forEach(const BagStream& bag, const SensorTopics& topics, const std::string& base, Take take);
+  void forEach(const rosbag::Bag& bag, const SensorTopics& topics, const std::string& base, Take take);
 
   fsr_pressure_map::MatrixInfo board_;
   fsr_pressure_map::CalibrationInfo calibration_;
@@ -78,6 +77,7 @@ class ScanContext {
   std::vector<std::int64_t> cycles_;  // stamp of the start of each cycle [ns]
   std::vector<Label> sessions_;
   std::vector<Label> events_;
+  MessageReader reader_;
 };
 
 constexpr std::int64_t kLongestGap = 2000000000;  // no interpolation between readings farther apart [ns]
@@ -99,7 +99,7 @@ std::vector<SensorTopics::Mark> sensorMarks(const std::string& map) {
           {map, ros::message_traits::datatype<fsr_pressure_map::PressureMap>()}};
 }
 
-ScanContext::ScanContext(const BagStream& bag, const SensorTopics& topics, std::optional<double> ambient) {
+ScanContext::ScanContext(const rosbag::Bag& bag, const SensorTopics& topics, std::optional<double> ambient) {
   readBoard(bag, topics);
   ambient_ = ambient                       ? *ambient
              : board_.ambient_pressure > 0 ? board_.ambient_pressure
@@ -110,16 +110,17 @@ ScanContext::ScanContext(const BagStream& bag, const SensorTopics& topics, std::
 
 // Calls `take` for each message of a topic, until it returns false.
 template <typename Message, typename Take>
-void ScanContext::forEach(const BagStream& bag, const SensorTopics& topics, const std::string& base,
+void ScanContext::forEach(const rosbag::Bag& bag, const SensorTopics& topics, const std::string& base,
                           Take take) {
   const std::string topic = topics.find(base);
   if (topic.empty()) return;
   topics.requireType(topic, ros::message_traits::datatype<Message>());
-  bag.forEach({{topic}},
-              [&](const StreamedMessage& message) { return take(readStreamed<Message>(message)); });
+  forEachMessage(bag, {topic}, [&](const rosbag::MessageInstance& message) {
+    return take(reader_.read<Message>(message));
+  });
 }
 
-void ScanContext::readBoard(const BagStream& bag, const SensorTopics& topics) {
+void ScanContext::readBoard(const rosbag::Bag& bag, const SensorTopics& topics) {
   forEach<fsr_pressure_map::MatrixInfo>(bag, topics, "matrix_info", [&](const auto& message) {
     board_ = message;
     return false;
@@ -134,7 +135,7 @@ void ScanContext::readBoard(const BagStream& bag, const SensorTopics& topics) {
   });
 }
 
-void ScanContext::readSeries(const BagStream& bag, const SensorTopics& topics) {
+void ScanContext::readSeries(const rosbag::Bag& bag, const SensorTopics& topics) {
   std::vector<std::pair<std::int64_t, double>> pressure;
   forEach<sensor_msgs::FluidPressure>(bag, topics, "chamber_pressure", [&](const auto& message) {
     chamber_.add(stampOf(message.header), message.fluid_pressure);
@@ -160,7 +161,7 @@ void ScanContext::findCycles(const std::vector<std::pair<std::int64_t, double>>&
     cycles_.push_back(pressure[first].first);
 }
 
-void ScanContext::readLabels(const BagStream& bag, const SensorTopics& topics) {
+void ScanContext::readLabels(const rosbag::Bag& bag, const SensorTopics& topics) {
   forEach<fsr_pressure_map::Session>(bag, topics, "session", [&](const auto& message) {
     if (sessions_.empty() || sessions_.back().second != message.session_id) {
       sessions_.emplace_back(stampOf(message.header), message.session_id);
@@ -405,32 +406,32 @@ ScanTopics scanTopics(const SensorTopics& topics, const ScanSelection& selection
   return found;
 }
 
-void feed(const BagStream& bag, const ScanTopics& topics, const BagWalk::ReadProgress& progress,
+void feed(const rosbag::Bag& bag, const ScanTopics& topics, const BagWalk::ReadProgress& progress,
           Joiner& joiner) {
   std::vector<std::string> wanted;
   for (const std::string& topic : {topics.raw, topics.map, topics.curvature}) {
     if (!topic.empty()) wanted.push_back(topic);
   }
   if (wanted.empty()) return;
-  StreamQuery query{wanted};
-  query.progress = progress;
-  bag.forEach(query, [&](const StreamedMessage& message) {
-    const std::string& topic = message.about.topic;
-    if (topic == topics.raw) joiner.add(readStreamed<fsr_pressure_map::MatrixFrame>(message));
-    if (topic == topics.map) joiner.add(readStreamed<fsr_pressure_map::PressureMap>(message));
-    if (topic == topics.curvature) joiner.add(readStreamed<fsr_pressure_map::SurfaceCurvature>(message));
+  MessageReader reader;
+  const auto add = [&](const rosbag::MessageInstance& message) {
+    const std::string& topic = message.getTopic();
+    if (topic == topics.raw) joiner.add(reader.read<fsr_pressure_map::MatrixFrame>(message));
+    if (topic == topics.map) joiner.add(reader.read<fsr_pressure_map::PressureMap>(message));
+    if (topic == topics.curvature) joiner.add(reader.read<fsr_pressure_map::SurfaceCurvature>(message));
     return true;
-  });
+  };
+  forEachMessage(bag, wanted, add, progress);
 }
 
 }  // namespace
 
 std::size_t sendScans(const std::string& path, const ScanSelection& selection, fsr::exports::ScanSink& sink) {
   std::size_t sent = 0;
-  withBagStream(
+  withSoundBag(
       path,
-      [&](const BagStream& bag) {
-        const SensorTopics topics(bag.types(), selection.topics, sensorMarks(selection.map));
+      [&](const rosbag::Bag& bag) {
+        const SensorTopics topics(typesIn(bag), selection.topics, sensorMarks(selection.map));
         const ScanTopics scans = scanTopics(topics, selection);
         ScanContext context(bag, topics, selection.ambient);
         fsr::exports::ExportSubject subject = context.subject();

@@ -1,12 +1,12 @@
 #include "ros/bags/sensor_topics.h"
 
 #include <ros/serialization.h>
+#include <rosbag/view.h>
 
 #include <filesystem>
 #include <set>
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "ros/bags/bag_walk.h"
 #include "settings/foreign_error.h"
 #include "settings/joined.h"
 
@@ -47,12 +47,40 @@ void tellingOfDamage(const std::string& path, const std::function<void()>& read)
   }
 }
 
-void withSoundBag(const std::string& path, const std::function<void(const rosbag::Bag&)>& use) {
+void withSoundBag(const std::string& path, const std::function<void(const rosbag::Bag&)>& use,
+                  const BagWalk::ReadProgress& progress) {
   tellingOfDamage(path, [&] {
-    requireSoundBag(path);
+    requireSoundBag(path, progress);
     const rosbag::Bag bag(path, rosbag::bagmode::Read);
     use(bag);
   });
+}
+
+void forEachMessage(const rosbag::Bag& bag, const std::vector<std::string>& topics,
+                    const std::function<bool(const rosbag::MessageInstance& message)>& take,
+                    const BagWalk::ReadProgress& progress) {
+  constexpr std::uint64_t kMessagesOfReport = 10000;  // between two reports of progress
+  rosbag::View view;
+  if (topics.empty()) {
+    view.addQuery(bag);
+  } else {
+    view.addQuery(bag, rosbag::TopicQuery(topics));
+  }
+  std::uint64_t taken = 0;
+  for (const rosbag::MessageInstance& message : view) {
+    if (progress && taken % kMessagesOfReport == 0)
+      progress(static_cast<double>(taken) / static_cast<double>(view.size()));
+    ++taken;
+    if (!take(message)) return;
+  }
+}
+
+std::map<std::string, std::string> typesIn(const rosbag::Bag& bag) {
+  std::map<std::string, std::string> types;
+  rosbag::View view(bag);
+  for (const rosbag::ConnectionInfo* const connection : view.getConnections())
+    types[connection->topic] = connection->datatype;
+  return types;
 }
 
 SensorTopics::SensorTopics(Types types, const std::string& topics, const std::vector<Mark>& marks)

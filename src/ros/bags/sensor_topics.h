@@ -1,11 +1,14 @@
 #pragma once
 
 #include <rosbag/bag.h>
+#include <rosbag/message_instance.h>
 
 #include <functional>
 #include <map>
 #include <string>
 #include <vector>
+
+#include "ros/bags/bag_walk.h"
 
 namespace fsr_ros {
 
@@ -14,8 +17,19 @@ namespace fsr_ros {
 /// ros::serialization.
 void tellingOfDamage(const std::string& path, const std::function<void()>& read);
 
-/// Checks the structure of a bag (requireSoundBag), opens it and runs `use` on it. Throws likewise.
-void withSoundBag(const std::string& path, const std::function<void(const rosbag::Bag&)>& use);
+/// Checks the structure of a bag (requireSoundBag, with `progress`), opens it and runs `use` on it. Throws
+/// likewise. rosbag keeps an index of every message in memory: a sixth of a bag of scans.
+void withSoundBag(const std::string& path, const std::function<void(const rosbag::Bag&)>& use,
+                  const BagWalk::ReadProgress& progress = {});
+
+/// Calls take(message) for the messages of these topics in the order of their reception, until it returns
+/// false. No topics = all. `progress`: called now and then with the share that is done.
+void forEachMessage(const rosbag::Bag& bag, const std::vector<std::string>& topics,
+                    const std::function<bool(const rosbag::MessageInstance& message)>& take,
+                    const BagWalk::ReadProgress& progress = {});
+
+/// Message type of each topic that has a message.
+std::map<std::string, std::string> typesIn(const rosbag::Bag& bag);
 
 /// The topics of one sensor in a bag: the topics of one namespace, found by their base names.
 class SensorTopics {

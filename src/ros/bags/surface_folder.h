@@ -21,9 +21,6 @@ class SurfaceFolder {
   /// The package's own folder, config/surfaces.
   static std::string shipped() { return "package://fsr_pressure_map/config/surfaces"; }
 
-  /// Names of all surfaces in the folder, sorted.
-  std::vector<std::string> names() const;
-
   /// The path of a surface file. Throws fsr::InputError that lists the surfaces in the folder if there is
   /// none of that name.
   std::string pathOf(const std::string& surface) const;

@@ -1,21 +1,84 @@
-#include "ros/live/calibration_server.h"
+#include "ros/live/servers.h"
 
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <fsr_pressure_map/Event.h>
+#include <fsr_pressure_map/LoadFile.h>
+#include <fsr_pressure_map/SetMask.h>
+#include <ros/callback_queue.h>
+#include <ros/node_handle.h>
+#include <ros/spinner.h>
 #include <sensor_msgs/FluidPressure.h>
 #include <sensor_msgs/Temperature.h>
-
 #include <boost/make_shared.hpp>
+
 #include <filesystem>
+#include <functional>
+#include <string>
 
 #include "ros/bags/resource_path.h"
 #include "ros/live/calibration_health.h"
+#include "ros/live/live_calibration.h"
 #include "ros/live/serve.h"
 #include "ros/messages/surface_message.h"
 
 namespace fsr_ros {
 
-namespace fs = std::filesystem;
-
 namespace {
+
+class CalibrationServer {
+ public:
+  CalibrationServer(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle);
+  ~CalibrationServer();
+
+ private:
+  void advertise();
+  void serve();
+  void subscribe();
+  void onScan(const fsr_pressure_map::MatrixFrameConstPtr& scan);
+  void onCurvature(const fsr_pressure_map::SurfaceCurvatureConstPtr& message);
+  void everySecond();
+  void tryWanted();
+  void onEvent(const fsr_pressure_map::EventConstPtr& event);
+  void compareAtMark();
+  std::string useEstimate(bool only_if_it_differs);
+  void publishInfo();
+  void logChange();
+
+  bool loadCalibration(fsr_pressure_map::LoadFile::Request& request,
+                       fsr_pressure_map::LoadFile::Response& response);
+  std::string reload();
+  bool setMask(fsr_pressure_map::SetMask::Request& request, fsr_pressure_map::SetMask::Response& response);
+
+  ros::NodeHandle handle_;
+  ros::NodeHandle private_handle_;
+  CalibrationSettings settings_;
+  LiveCalibration live_;
+  std::string logged_ = "nothing";  // sentence about the maps that was logged last
+  std::string tried_;               // fingerprint of the wanted file at the last attempt
+
+  ros::Publisher maps_;
+  ros::Publisher info_;
+  ros::Subscriber scans_;
+  ros::Subscriber curvature_;
+  ros::Subscriber board_;
+  ros::Subscriber temperature_;
+  ros::Subscriber chamber_;
+  ros::Subscriber events_;
+  ros::Publisher estimated_;     // of the curvature, if this node is its source
+  std::uint32_t estimates_ = 0;  // number of the mount that was estimated last
+
+  diagnostic_updater::Updater diagnostics_;
+  CalibrationHealth before_;  // one second before now_
+  CalibrationHealth now_;
+  ros::WallTimer second_;
+
+  ros::CallbackQueue slow_queue_;  // for services and loading
+  ros::WallTimer watch_;
+  std::vector<ros::ServiceServer> services_;
+  ros::AsyncSpinner slow_thread_;  // last: it uses everything above
+};
+
+namespace fs = std::filesystem;
 
 constexpr double kPatience = 5.0;      // a tare gives up after this time without a scan [s]
 constexpr double kWatchPeriod = 0.25;  // period of looking for a file that could not be loaded [s]
@@ -30,8 +93,6 @@ std::string fingerprint(const std::string& path) {
   const auto size = fs::file_size(path, error);
   return path + " " + std::to_string(time) + " " + std::to_string(size);
 }
-
-}  // namespace
 
 CalibrationServer::CalibrationServer(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle)
     : handle_(handle),
@@ -212,6 +273,12 @@ std::string CalibrationServer::useEstimate(bool only_if_it_differs) {
   message.header.stamp = ros::Time::now();
   estimated_.publish(message);
   return sentence + "; it is used from now on, as mount " + std::to_string(surface.mount);
+}
+
+}  // namespace
+
+Server makeCalibrationServer(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle) {
+  return std::make_shared<CalibrationServer>(handle, private_handle);
 }
 
 }  // namespace fsr_ros

@@ -1,17 +1,75 @@
-#include "ros/live/curvature_server.h"
+#include "ros/live/servers.h"
 
+#include <fsr_pressure_map/SetSurface.h>
 #include <ros/console.h>
+#include <ros/node_handle.h>
+#include <std_msgs/Header.h>
+#include <tf2_ros/static_transform_broadcaster.h>
 
 #include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
 #include <utility>
 
+#include "fsr_pressure_map/matrix/curvature.h"
+#include "matrix/surface_file.h"
 #include "ros/bags/resource_path.h"
+#include "ros/bags/surface_folder.h"
+#include "ros/bags/surface_memory.h"
 #include "ros/live/parameters.h"
 #include "ros/live/serve.h"
 #include "ros/messages/surface_message.h"
 #include "ros/messages/view_messages.h"
 
 namespace fsr_ros {
+
+namespace {
+
+// Publishes the scan that a surface was made from on `mesh`, latched, and the transform from the frame of
+// the scan to that of the matrix on /tf_static. rviz then draws scan and map together.
+class MeshPublisher {
+ public:
+  // `mesh_frame`: empty = no transform is published.
+  MeshPublisher(ros::NodeHandle& handle, std::string mesh_frame);
+
+  // `place`: nothing for a surface that was made from no scan; then the last one disappears. A transform
+  // cannot be taken back: the last one stays until the node ends. `header`: the frame of the matrix.
+  void show(const std_msgs::Header& header, const std::optional<fsr::matrix::MeshPlace>& place);
+
+ private:
+  std::string mesh_frame_;
+  ros::Publisher mesh_;
+  std::optional<tf2_ros::StaticTransformBroadcaster> transform_;
+};
+
+class CurvatureServer {
+ public:
+  CurvatureServer(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle);
+  ~CurvatureServer();
+  CurvatureServer(const CurvatureServer&) = delete;
+  CurvatureServer& operator=(const CurvatureServer&) = delete;
+
+ private:
+  bool setSurface(fsr_pressure_map::SetSurface::Request& request,
+                  fsr_pressure_map::SetSurface::Response& response);
+  void publish();
+  std_msgs::Header headerNow() const;
+  std::string keptText(const LaidOn& now);
+  void lay(const LaidOn& next);
+  void start(const Parameters& parameters, const std::string& node);
+
+  ros::NodeHandle handle_;
+  SurfaceFolder surfaces_;
+  std::string frame_id_;
+  fsr::matrix::Surface surface_;
+  std::optional<fsr::matrix::MeshPlace> mesh_;  // under the matrix
+  std::unique_ptr<SurfaceMemory> memory_;
+  ros::Publisher publisher_;
+  std::optional<MeshPublisher> mesh_publisher_;
+  ros::ServiceServer service_;
+  ros::Timer timer_;
+};
 
 MeshPublisher::MeshPublisher(ros::NodeHandle& handle, std::string mesh_frame)
     : mesh_frame_(std::move(mesh_frame)),
@@ -126,6 +184,12 @@ void CurvatureServer::publish() {
   fsr_pressure_map::SurfaceCurvature message = toMessage(surface_);
   message.header = headerNow();
   publisher_.publish(message);
+}
+
+}  // namespace
+
+Server makeCurvatureServer(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle) {
+  return std::make_shared<CurvatureServer>(handle, private_handle);
 }
 
 }  // namespace fsr_ros

@@ -1,7 +1,12 @@
-#include "ros/live/limb_server.h"
+#include "ros/live/servers.h"
+
+#include <fsr_pressure_map/PressureStatisticsArray.h>
+#include <ros/node_handle.h>
 
 #include <algorithm>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "ros/live/parameters.h"
 #include "ros/messages/view_messages.h"
@@ -9,6 +14,26 @@
 namespace fsr_ros {
 
 namespace {
+
+class LimbServer {
+ public:
+  LimbServer(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle);
+
+ private:
+  struct Sheet {
+    fsr_pressure_map::PressureStatisticsArrayConstPtr last;
+    ros::WallTime received;
+    ros::Subscriber subscriber;
+  };
+  void publish();
+  bool isHeard(const Sheet& sheet) const;
+
+  ros::NodeHandle handle_;
+  double stale_after_;  // [s]
+  std::vector<Sheet> sheets_;
+  ros::Publisher sum_;
+  ros::WallTimer silence_;
+};
 
 using fsr_pressure_map::PressureStatisticsArray;
 using fsr_pressure_map::PressureStatisticsArrayConstPtr;
@@ -44,8 +69,6 @@ fsr::map::RegionStatistics sumOf(const std::string& name,
   }
   return fsr::map::sumOfSheets(name, parts);
 }
-
-}  // namespace
 
 LimbServer::LimbServer(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle)
     : handle_(handle) {
@@ -92,6 +115,12 @@ void LimbServer::publish() {
     array.regions.push_back(toMessage(sum, {}));
   }
   sum_.publish(array);
+}
+
+}  // namespace
+
+Server makeLimbServer(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle) {
+  return std::make_shared<LimbServer>(handle, private_handle);
 }
 
 }  // namespace fsr_ros

@@ -1,13 +1,19 @@
-#include "ros/live/training_server.h"
+#include "ros/live/servers.h"
 
 #include <diagnostic_msgs/DiagnosticStatus.h>
+#include <ros/ros.h>
 
+#include <cstdint>
 #include <filesystem>
+#include <mutex>
 #include <sstream>
+#include <string>
+#include <vector>
 
+#include "dataset/recording_builder.h"
+#include "fsr_pressure_map/calibration/calibration.h"
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "report/calibration_report.h"
-#include "report/history_report.h"
 #include "ros/bags/message_events.h"
 #include "ros/bags/resource_path.h"
 #include "ros/bags/training_options.h"
@@ -19,6 +25,40 @@
 namespace fsr_ros {
 
 namespace {
+
+class TrainingServer {
+ public:
+  TrainingServer(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle);
+
+ private:
+  template <typename Message>
+  void subscribe(const std::string& topic);
+  template <typename Message>
+  void gather(const Message& message);
+  std::string train();
+  std::string clear();
+  fsr::dataset::Recording gatheredRecording();
+  void publishGathered();
+
+  ros::NodeHandle handle_;
+  std::string output_, report_;
+  fsr::calibration::CalibrationOptions options_;
+  fsr::dataset::RecordingOptions recording_options_;
+
+  std::uint64_t most_ = 0;  // messages that are gathered
+
+  std::mutex gathering_;  // guards builder_, copying_ and refused_
+  fsr::dataset::RecordingBuilder builder_;
+  bool copying_ = false;       // what was gathered; builder_ has what has come since
+  std::uint64_t refused_ = 0;  // messages
+  std::mutex training_;        // held during a training: one at a time
+
+  std::vector<ros::Subscriber> subscribers_;
+  ros::Publisher gathered_;
+  std::vector<ros::ServiceServer> services_;
+  ros::WallTimer timer_;
+  std::string last_gathered_;
+};
 
 // A bag replayed at many times its speed may send faster than a busy computer receives. The messages are
 // small.
@@ -62,8 +102,6 @@ std::string summary(const fsr::calibration::Calibration& calibration, const std:
   text << ") is in " << path;
   return text.str();
 }
-
-}  // namespace
 
 TrainingServer::TrainingServer(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle)
     : handle_(handle), builder_(kCountsInMemory) {
@@ -204,6 +242,12 @@ void TrainingServer::publishGathered() {
   if (shown == last_gathered_) return;
   last_gathered_ = shown;
   gathered_.publish(status);
+}
+
+}  // namespace
+
+Server makeTrainingServer(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle) {
+  return std::make_shared<TrainingServer>(handle, private_handle);
 }
 
 }  // namespace fsr_ros

@@ -68,24 +68,6 @@ void readMessage(std::uint8_t* bytes, std::size_t size, Message& message) {
 /// Reads messages out of a bag that may be damaged.
 class MessageReader {
  public:
-  /// Throws as the two functions above.
-  template <typename Message>
-  static Message read(const std::string& topic, const std::string& md5sum, std::uint8_t* data,
-                      std::size_t size) {
-    requireDefinition<Message>(topic, md5sum);
-    Message message;
-    constexpr std::size_t kEmptyText = sizeof(std::uint32_t);  // its length, 0
-    const std::size_t added = fieldsAdded(ros::message_traits::datatype<Message>(), md5sum);
-    if (added == 0) {
-      readMessage(data, size, message);
-      return message;
-    }
-    std::vector<std::uint8_t> whole(data, data + size);
-    whole.resize(size + added * kEmptyText, 0);
-    readMessage(whole.data(), whole.size(), message);
-    return message;
-  }
-
   /// The serialised message; valid until the next call.
   std::string_view bytes(const rosbag::MessageInstance& instance) {
     bytes_.resize(instance.size());
@@ -94,11 +76,18 @@ class MessageReader {
     return {reinterpret_cast<const char*>(bytes_.data()), bytes_.size()};
   }
 
-  /// Throws likewise.
+  /// Throws as the two functions above.
   template <typename Message>
   Message read(const rosbag::MessageInstance& instance) {
+    constexpr std::size_t kEmptyText = sizeof(std::uint32_t);  // its length, 0
+    const std::string md5sum = instance.getMD5Sum();
+    requireDefinition<Message>(instance.getTopic(), md5sum);
     bytes(instance);
-    return read<Message>(instance.getTopic(), instance.getMD5Sum(), bytes_.data(), bytes_.size());
+    const std::size_t added = fieldsAdded(ros::message_traits::datatype<Message>(), md5sum);
+    bytes_.resize(bytes_.size() + added * kEmptyText, 0);
+    Message message;
+    readMessage(bytes_.data(), bytes_.size(), message);
+    return message;
   }
 
  private:

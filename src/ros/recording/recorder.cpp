@@ -3,6 +3,7 @@
 #include <ros/console.h>
 #include <topic_tools/shape_shifter.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <sstream>
@@ -207,6 +208,24 @@ void Recorder::judge(diagnostic_updater::DiagnosticStatusWrapper& status) {
   status.add("messages before /clock", without_time_.load());
   status.add("waiting for the disk [bytes]", now.waiting);
   status.add("space left [bytes]", now.space);
+}
+
+void ScanTally::add(const fsr_pressure_map::MatrixFrame& scan) {
+  const double stamp = scan.header.stamp.toSec();
+  const std::uint32_t step = scan.sequence - sequence_;
+  // A step back is a restart of the board, which says nothing about lost scans.
+  constexpr std::uint32_t kBack = 1u << 31;
+  if (scans_ > 0 && step > 1 && step < kBack) lost_ += step - 1;
+  if (scans_ == 0) first_ = stamp;
+  sequence_ = scan.sequence;
+  last_ = std::max(last_, stamp);
+  ++scans_;
+}
+
+std::string ScanTally::text() const {
+  return std::to_string(scans_) + (scans_ == 1 ? " scan in " : " scans in ") +
+         fsr::settings::fixedText(scans_ > 0 ? std::max(0.0, last_ - first_) : 0.0, 1) + " s (" +
+         std::to_string(lost_) + " lost by the board's counter)";
 }
 
 }  // namespace fsr_ros

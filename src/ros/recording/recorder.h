@@ -1,20 +1,38 @@
 #pragma once
 
 #include <diagnostic_updater/diagnostic_updater.h>
+#include <fsr_pressure_map/MatrixFrame.h>
 #include <ros/node_handle.h>
 
 #include <atomic>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "ros/bags/scan_tally.h"
 #include "ros/live/parameters.h"
 #include "ros/recording/bag_sink.h"
 
 namespace fsr_ros {
+
+/// Counts the scans of a recording.
+class ScanTally {
+ public:
+  void add(const fsr_pressure_map::MatrixFrame& scan);
+
+  std::uint64_t scans() const { return scans_; }
+  /// "412 scans in 41.2 s (3 lost by the board's counter)".
+  std::string text() const;
+
+ private:
+  std::uint64_t scans_ = 0;
+  std::uint64_t lost_ = 0;
+  std::uint32_t sequence_ = 0;  // of the last scan
+  double first_ = 0;            // stamp [s]
+  double last_ = 0;             // stamp [s]
+};
 
 /// Records topics of any type into one bag, as `rosbag record` does, but loses less. The queue of each topic
 /// holds ten seconds at 1 kHz (rosbag: a tenth of a second). When the disk is full, the bag is closed. An

@@ -17,7 +17,6 @@
 #include "ros/tools/discrepancy_files.h"
 #include "ros/tools/map_gain.h"
 #include "ros/tools/recompute_gap_tool.h"
-#include "ros/tools/show_ledger.h"
 #include "ros/tools/tool_options.h"
 #include "settings/command_line.h"
 #include "settings/replace_file.h"

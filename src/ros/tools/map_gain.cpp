@@ -53,7 +53,8 @@ std::string temperatureGain(const fsr::calibration::Calibration& calibration) {
     with += group.with * group.with;
   }
   const double groups = static_cast<double>(score.groups.size());
-  return "On protocols and recordings that were left out, the error of the map falls from " +
+  return "On protocols and recordings that were left out, the error of readings predicted from the pressure "
+         "falls from " +
          fsr::settings::fixedText(std::sqrt(without / groups) / kKilopascal, 2) + " to " +
          fsr::settings::fixedText(std::sqrt(with / groups) / kKilopascal, 2) +
          " kPa with a factor for the temperature. train uses it unless --temperature none is given.";

@@ -87,14 +87,10 @@ void propose(const fsr::settings::CommandLine& line, std::ostream& out) {
                                                              "Written by plan_session. `plan_session FILE` "
                                                              "describes it."}));
   describe(proposed.plan, line, out);
-  const double cut = plans::sessionDuration(proposed.whole) - plans::sessionDuration(proposed.plan);
-  if (cut > 0) {
-    out << "\nThe whole plan for " << plans::name(request.purpose) << " takes "
-        << plans::timeText(plans::sessionDuration(proposed.whole)) << ". What this one lacks beside it:\n";
-    const std::vector<std::string> lacks = plans::lacksBeside(proposed.whole, proposed.plan);
-    for (const std::string& sentence : lacks) out << "  - " << sentence << "\n";
-    if (lacks.empty()) out << "  - Nothing but data.\n";
-  }
+  const double whole = plans::sessionDuration(proposed.whole);
+  if (whole > plans::sessionDuration(proposed.plan))
+    out << "\nThe whole plan for " << plans::name(request.purpose) << " takes " << plans::timeText(whole)
+        << ".\n";
   out << "\nwritten: " << std::filesystem::absolute(output).lexically_normal().string() << "\n";
 }
 

@@ -6,6 +6,7 @@
 #include <fsr_pressure_map/PressureMap.h>
 #include <fsr_pressure_map/Session.h>
 #include <fsr_pressure_map/SurfaceCurvature.h>
+#include <rosbag/view.h>
 #include <sensor_msgs/FluidPressure.h>
 #include <sensor_msgs/Temperature.h>
 
@@ -15,8 +16,8 @@
 #include <string>
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "ros/bags/bag_stream.h"
 #include "ros/bags/fresh_bag.h"
+#include "ros/bags/sensor_topics.h"
 #include "ros/messages/message_reader.h"
 #include "ros/tools/tool_options.h"
 #include "settings/command_line.h"
@@ -39,24 +40,24 @@ using Kept = std::map<std::string, std::set<std::string>>;
 
 class Scrubber {
  public:
-  Scrubber(const BagStream& from, FreshBag& to) : from_(from), to_(to) {}
+  Scrubber(const rosbag::Bag& from, FreshBag& to) : from_(from), to_(to) {}
 
   void run(const BagWalk::ReadProgress& progress) {
-    if (from_.connections().empty()) throw fsr::settings::InputError("holds no message");
-    shift_ = kNewStart - from_.begin().sec * kSecond;
-    StreamQuery query;
-    query.progress = progress;
-    removed_["absolute times"] = from_.forEach(query, [&](const StreamedMessage& message) {
+    rosbag::View view(from_);
+    if (view.size() == 0) throw fsr::settings::InputError("holds no message");
+    shift_ = kNewStart - view.getBeginTime().sec * kSecond;
+    removed_["absolute times"] = view.size();
+    const auto copyOrCount = [&](const rosbag::MessageInstance& message) {
       const bool kept =
           copy<fsr_pressure_map::MatrixFrame>(message) || copy<sensor_msgs::FluidPressure>(message) ||
           copy<sensor_msgs::Temperature>(message) || copy<fsr_pressure_map::SurfaceCurvature>(message) ||
           copy<fsr_pressure_map::PressureMap>(message) || copy<fsr_pressure_map::MatrixInfo>(message) ||
           copy<fsr_pressure_map::Session>(message) || copy<fsr_pressure_map::Event>(message);
-      if (!kept) ++removed_["messages of " + message.about.topic + " (" + message.about.type + ")"];
-      const bool named = !from_.connections()[message.connection].publisher().empty();
-      if (kept && named) ++removed_["names of the nodes that published"];
+      if (!kept) ++removed_["messages of " + message.getTopic() + " (" + message.getDataType() + ")"];
+      if (kept && !message.getCallerId().empty()) ++removed_["names of the nodes that published"];
       return true;
-    });
+    };
+    forEachMessage(from_, {}, copyOrCount, progress);
   }
 
   const Ledger& removed() const { return removed_; }
@@ -64,14 +65,14 @@ class Scrubber {
 
  private:
   template <typename Message>
-  bool copy(const StreamedMessage& streamed) {
-    if (!isReadable<Message>(streamed.about.md5sum)) return false;
-    auto message = readStreamed<Message>(streamed);
-    const std::string& topic = streamed.about.topic;
+  bool copy(const rosbag::MessageInstance& instance) {
+    if (!isReadable<Message>(instance.getMD5Sum())) return false;
+    auto message = reader_.read<Message>(instance);
+    const std::string& topic = instance.getTopic();
     if (!message.header.stamp.isZero()) message.header.stamp = moved(message.header.stamp, topic);
     keep(message.header.frame_id, "frame of " + topic);
     clean(message);
-    to_.write(topic, moved(streamed.received, topic), message);
+    to_.write(topic, moved(instance.getTime(), topic), message);
     return true;
   }
 
@@ -125,9 +126,10 @@ class Scrubber {
     if (!field.empty()) kept_[what].insert(field);
   }
 
-  const BagStream& from_;
+  const rosbag::Bag& from_;
   FreshBag& to_;
   std::int64_t shift_ = 0;  // [ns]
+  MessageReader reader_;
   Ledger removed_;
   Kept kept_;
 };
@@ -165,9 +167,9 @@ int scrubTool(int argc, const char* const* argv, std::ostream& out) {
   fsr::settings::requireReplaceable(output, fsr::settings::file_kind::kBag);
   const std::string& bag = line.files().front();
   const auto progress = toolProgress();
-  withBagStream(
+  withSoundBag(
       bag,
-      [&](const BagStream& from) {
+      [&](const rosbag::Bag& from) {
         FreshBag to(output);
         Scrubber scrubber(from, to);
         scrubber.run(told("copying " + bag, progress));

@@ -10,7 +10,6 @@
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "fsr_pressure_map/ros/bag_reader.h"
 #include "fsr_pressure_map/settings/input_error.h"
-#include "report/budget_report.h"
 #include "report/calibration_report.h"
 #include "report/verdict_file.h"
 #include "ros/bags/bag_topics.h"

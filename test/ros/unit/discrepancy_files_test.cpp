@@ -9,7 +9,6 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "report/verdict_file.h"
-#include "ros/tools/show_ledger.h"
 #include "ros/tools/tool_options.h"
 #include "support/example_discrepancy.h"
 #include "support/folder_test.h"

@@ -1,4 +1,4 @@
-#include "ros/bags/scan_tally.h"
+#include "ros/recording/recorder.h"
 
 #include <gtest/gtest.h>
 

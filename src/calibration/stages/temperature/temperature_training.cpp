@@ -6,10 +6,9 @@
 
 #include "calibration/stages/deviation/held_out_scoring.h"
 #include "calibration/stages/memory/history_fit.h"
-#include "calibration/stages/memory/history_folds.h"
 #include "calibration/stages/memory/history_state.h"
-#include "calibration/stages/temperature/temperature_state.h"
 #include "dataset/count_readers.h"
+#include "dataset/protocols.h"
 #include "matrix/for_each_taxel.h"
 #include "settings/number_text.h"
 
@@ -38,9 +37,11 @@ struct LagSums {
   Eigen::Vector2d right = Eigen::Vector2d::Zero();
   Eigen::Vector2d raw = Eigen::Vector2d::Zero();    // squares of the features
   Eigen::Vector3d error = Eigen::Vector3d::Zero();  // of the group left out: a + b s + c s^2 [Pa^2]
+  double readings = 0;                              // of the group left out
 
   LagSums& operator+=(const LagSums& other) {
     square += other.square, right += other.right, raw += other.raw, error += other.error;
+    readings += other.readings;
     return *this;
   }
   double sensitivity() const {
@@ -55,7 +56,8 @@ using FoldSums = std::vector<std::vector<LagSums>>;  // [groups + 1][lags], the 
 
 class TemperatureFit {
  public:
-  TemperatureFit(const HistoryProblem& problem, const TemperatureGrid& grid, const dataset::Protocols& groups)
+  TemperatureFit(const TemperatureProblem& problem, const TemperatureGrid& grid,
+                 const dataset::Protocols& groups)
       : problem_(problem),
         lags_(grid.lags.size()),
         groups_(groups.names.size()),
@@ -82,12 +84,11 @@ class TemperatureFit {
   std::vector<HistorySums> sumsOf(std::size_t taxel, std::size_t curvature_class,
                                   const Eigen::VectorXd& curve) const;
   bool reading(std::vector<dataset::TaxelCounts>& counts, const Row& row, double& code) const;
-  void addFold(const Eigen::MatrixXd& gram, const Eigen::MatrixXd* left_out,
-               std::vector<LagSums>& sums) const;
+  void addFold(const Eigen::MatrixXd& gram, const HistorySums* left_out, std::vector<LagSums>& sums) const;
 
   Index features() const { return base_ + 2 * Index(lags_); }
 
-  const HistoryProblem& problem_;
+  const TemperatureProblem& problem_;
   std::size_t lags_, groups_;
   double highest_;  // [Pa]
   HistoryOperators operators_;
@@ -226,7 +227,7 @@ std::vector<HistorySums> TemperatureFit::sumsOf(std::size_t taxel, std::size_t c
   return sums;
 }
 
-void TemperatureFit::addFold(const Eigen::MatrixXd& gram, const Eigen::MatrixXd* left_out,
+void TemperatureFit::addFold(const Eigen::MatrixXd& gram, const HistorySums* left_out,
                              std::vector<LagSums>& sums) const {
   const Index n = features();
   Eigen::MatrixXd base = gram.topLeftCorner(base_, base_);
@@ -248,8 +249,9 @@ void TemperatureFit::addFold(const Eigen::MatrixXd& gram, const Eigen::MatrixXd*
       Eigen::VectorXd constant = Eigen::VectorXd::Zero(n + 1), of_s = constant;
       constant[n] = 1, constant.head(base_) = -explained.col(target);
       of_s[base_ + own] = -1, of_s.head(base_) = explained.col(own);
-      const Eigen::VectorXd seen = *left_out * of_s;
-      lag.error << constant.dot(*left_out * constant), 2 * constant.dot(seen), of_s.dot(seen);
+      const Eigen::VectorXd seen = left_out->gram() * of_s;
+      lag.readings = left_out->samples();
+      lag.error << constant.dot(left_out->gram() * constant), 2 * constant.dot(seen), of_s.dot(seen);
     }
     sums[l] += lag;
   }
@@ -266,18 +268,25 @@ FoldSums TemperatureFit::ofTaxel(std::size_t taxel) const {
     for (std::size_t g = 0; g < groups_; ++g) {
       // A class that was recorded with this group only has no f without it.
       const bool known = whole(kKnots, kKnots) - sums[g].gram()(kKnots, kKnots) > 0;
-      if (known) addFold(whole - sums[g].gram(), &sums[g].gram(), all[g]);
+      if (known) addFold(whole - sums[g].gram(), &sums[g], all[g]);
     }
     addFold(whole, nullptr, all[groups_]);
   }
   return all;
 }
 
-}  // namespace
+// The sensitivity that the readings show with one lag.
+struct TemperatureEstimate {
+  double sensitivity = 0;                         // s of TemperatureModel, from all groups [1/K]
+  std::vector<TemperatureScore::Group> left_out;  // each predicted without and with the temperature
+  // Sums of the squared errors of all groups that were left out [Pa^2].
+  double square = 0, square_without_temperature = 0;
+};
 
-// Taxels are added in their order, so that the result does not depend on the number of threads.
-std::vector<TemperatureEstimate> fitTemperature(const HistoryProblem& problem, const TemperatureGrid& grid,
-                                                const dataset::Protocols& groups,
+// Fits s for each lag of the grid. Taxels are added in their order, so that the result does not depend on the
+// number of threads.
+std::vector<TemperatureEstimate> fitTemperature(const TemperatureProblem& problem,
+                                                const TemperatureGrid& grid, const dataset::Protocols& groups,
                                                 const std::vector<std::uint8_t>& no_model, unsigned threads) {
   const TemperatureFit fit(problem, grid, groups);
   std::vector<FoldSums> each(no_model.size(), fit.empty());
@@ -295,17 +304,18 @@ std::vector<TemperatureEstimate> fitTemperature(const HistoryProblem& problem, c
     TemperatureEstimate& own = estimates[l];
     own.sensitivity = all.back()[l].sensitivity();
     for (std::size_t g = 0; g + 1 < all.size(); ++g) {
-      const double s = all[g][l].sensitivity();
-      own.without.push_back(s);
-      const Eigen::Vector3d& error = all[g][l].error;
-      own.square += error[0] + s * error[1] + s * s * error[2];
-      own.square_without_temperature += error[0];
+      const LagSums& sums = all[g][l];
+      if (!(sums.readings > 0)) continue;  // each surface was recorded with this group only
+      const double s = sums.sensitivity(), without = sums.error[0];
+      const double with = without + s * sums.error[1] + s * s * sums.error[2];
+      own.square += with;
+      own.square_without_temperature += without;
+      own.left_out.push_back({groups.names[g], std::sqrt(std::max(0.0, without) / sums.readings),
+                              std::sqrt(std::max(0.0, with) / sums.readings)});
     }
   }
   return estimates;
 }
-
-namespace {
 
 // Each recording is a group.
 dataset::Protocols eachRecording(const std::vector<dataset::Recording>& recordings,
@@ -330,7 +340,7 @@ struct Trial {
 
 class TemperatureTraining {
  public:
-  TemperatureTraining(const HistoryProblem& problem, const CalibrationOptions& options,
+  TemperatureTraining(const TemperatureProblem& problem, const CalibrationOptions& options,
                       Calibration& calibration)
       : problem_(problem),
         options_(options),
@@ -348,10 +358,9 @@ class TemperatureTraining {
   void addTrial(dataset::Protocols groups);
   bool findLag();
   TemperatureModel model() const;
-  bool wins(const TemperatureModel& model);
-  bool winsOn(const Trial& trial, const TemperatureModel& model);
+  bool wins();
 
-  const HistoryProblem& problem_;
+  const TemperatureProblem& problem_;
   const CalibrationOptions& options_;
   Calibration& calibration_;
   const TemperatureGrid grid_;
@@ -407,47 +416,25 @@ TemperatureModel TemperatureTraining::model() const {
   return model;
 }
 
-// The tables of the answer with temperature are trained at T_0 with the sensitivity of all groups. The factor
-// of a group that is left out has the sensitivity that was found without it.
-bool TemperatureTraining::winsOn(const Trial& trial, const TemperatureModel& model) {
-  const std::vector<dataset::Recording> adjusted = atReference(problem_.recordings, model);
-  std::vector<std::vector<double>> judged;
-  for (std::size_t r = 0; r < adjusted.size(); ++r) {
-    judged.push_back(adjusted[r].pressure);
-    const std::vector<double> sheet = sheetTemperature(problem_.recordings[r], model.lag);
-    for (std::size_t i = 0; i < sheet.size(); ++i) {
-      const std::uint32_t group = trial.groups.of_scan[r][i];
-      if (group == dataset::Protocols::kOther) continue;
-      TemperatureModel own = model;
-      own.sensitivity = trial.estimates[lag_].without[group];
-      judged.back()[i] = problem_.recordings[r].pressure[i] / temperatureFactor(own, sheet[i]);
+bool TemperatureTraining::wins() {
+  std::vector<TemperatureScore::Group>& groups = score().groups;
+  bool better = true;
+  for (const Trial& trial : trials_) {
+    double without = 0, with = 0;
+    for (const TemperatureScore::Group& group : trial.estimates[lag_].left_out) {
+      groups.push_back(group);
+      without += group.without * group.without;
+      with += group.with * group.with;
     }
+    better = better && with <= kWins * kWins * without;
   }
-  const HistoryProblem at_reference{adjusted,           problem_.classes, problem_.sections, problem_.plan,
-                                    problem_.regressor, problem_.zeros,   problem_.sessions};
-  const auto before = familyErrors(HistoryFolds(problem_, trial.groups, options_.threads, calibration_));
-  const auto after =
-      familyErrors(HistoryFolds(at_reference, trial.groups, options_.threads, calibration_, judged));
-  const auto family = std::size_t(calibration_.history.family);
-  double square_before = 0, square_after = 0;
-  bool nowhere_worse = true;
-  for (std::size_t g = 0; g < before.size(); ++g) {
-    const double without = before[g].rmse[family], with = after[g].rmse[family];
-    score().groups.push_back({before[g].name, without, with});
-    nowhere_worse = nowhere_worse && with <= kWorse * without;
-    square_before += without * without;
-    square_after += with * with;
-  }
-  if (!nowhere_worse)
-    return told("with it the answer is worse by more than 1 % on a protocol or recording that was left out");
-  return square_after <= kWins * kWins * square_before ||
-         told("with it the answer is not better by 2 % on protocols and recordings that were left out");
-}
-
-bool TemperatureTraining::wins(const TemperatureModel& model) {
-  bool wins = true;
-  for (const Trial& trial : trials_) wins = winsOn(trial, model) && wins;
-  return wins;
+  const auto worse = [](const auto& group) { return group.with > kWorse * group.without; };
+  if (std::any_of(groups.begin(), groups.end(), worse))
+    return told(
+        "with it readings are predicted worse by more than 1 % on a protocol or recording that was left out");
+  return better || told(
+                       "with it readings are not predicted better by 2 % on protocols and recordings that "
+                       "were left out");
 }
 
 TemperatureModel TemperatureTraining::choose() {
@@ -457,8 +444,8 @@ TemperatureModel TemperatureTraining::choose() {
     return {};
   }
   if (!findLag()) return {};
+  if (!wins()) return {};
   const TemperatureModel chosen = model();
-  if (!wins(chosen)) return {};
   score().choice = "Temperature: " + settings::roundedText(100 * chosen.sensitivity, 3) +
                    " % a kelvin with a lag of " + settings::roundedText(chosen.lag, 3) +
                    " s; it wins on protocols and recordings that were left out.";
@@ -467,7 +454,7 @@ TemperatureModel TemperatureTraining::choose() {
 
 }  // namespace
 
-TemperatureModel chooseTemperature(const HistoryProblem& problem, const CalibrationOptions& options,
+TemperatureModel chooseTemperature(const TemperatureProblem& problem, const CalibrationOptions& options,
                                    Calibration& calibration) {
   if (!options.temperature || !haveTemperature(problem.recordings)) return {};
   return TemperatureTraining(problem, options, calibration).choose();
