@@ -45,7 +45,7 @@ class TellBendChange : public testing::Test {
     return tellBendChange(reader_, model_, rest, reader_.estimate(rest));
   }
 
-  const PlantedShape sheet_;
+  const PlantedShape sheet_{};
   const ShapeModel model_ = test_support::learnPlanted(sheet_);
   const ShapeReader reader_{model_};
   std::mt19937 random_{11};
