@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "calibration/small_sheet.h"
 #include "fsr_pressure_map/calibration/calibrator.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "support/allocation_guard.h"
@@ -15,13 +16,7 @@ using test_support::knownPressure;
 using test_support::smallTables;
 namespace flag = map::taxel_flag;
 
-constexpr matrix::MatrixSize kSize{3, 4};
-constexpr std::uint16_t kFullScale = 1023;
 constexpr std::size_t kTaxel = 7;
-
-matrix::Surface bent(double curvature, const std::string& name = "surface") {
-  return {name, 1, {{curvature, 0, 0}}, {}};
-}
 
 compensation::CurvatureTables tablesWith(compensation::BlendRule blend) {
   compensation::CurvatureTables tables = smallTables(kSize, {0.0, 10.0, 20.0});

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calibration/same_tables.h"
 #include "compensation/training_statistics.h"
 #include "fsr_pressure_map/calibration/calibration.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "regression/regressors.h"
+#include "support/holds.h"
 #include "support/synthetic_recording.h"
 
 namespace fsr::calibration {
@@ -31,16 +33,6 @@ Calibration train(const std::vector<dataset::Recording>& recordings, compensatio
   problem.options.threads = threads;
   problem.options.date = "2024-05-06T07:08:09Z";
   return calibrate(problem);
-}
-
-void expectSameTables(const Calibration& a, const Calibration& b) {
-  ASSERT_EQ(a.tables.tables.size(), b.tables.tables.size());
-  for (std::size_t i = 0; i < a.tables.tables.size(); ++i) {
-    EXPECT_EQ(a.tables.tables[i].pressure, b.tables.tables[i].pressure);
-    EXPECT_EQ(a.tables.tables[i].deviation, b.tables.tables[i].deviation);
-    EXPECT_EQ(a.tables.tables[i].support, b.tables.tables[i].support);
-  }
-  EXPECT_EQ(a.statistics->cells, b.statistics->cells);
 }
 
 TEST(Calibrate, RecoversTheCurveOfEachTaxelAndSurface) {
@@ -356,12 +348,7 @@ TEST(Calibrate, ReportsItsProgress) {
 }
 
 std::string complaint(const CalibrationProblem& problem) {
-  try {
-    calibrate(problem);
-  } catch (const settings::InputError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return test_support::refusal([&] { calibrate(problem); }, "accepted");
 }
 
 TEST(Calibrate, UnusableRecordingsAreRefusedInOneSentence) {

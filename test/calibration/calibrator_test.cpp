@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "calibration/small_sheet.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "support/allocation_guard.h"
 #include "support/small_tables.h"
@@ -16,13 +17,7 @@ using test_support::knownPressure;
 using test_support::smallTables;
 namespace flag = map::taxel_flag;
 
-constexpr matrix::MatrixSize kSize{3, 4};
-constexpr std::uint16_t kFullScale = 1023;
 const std::vector<double> kCurvatures = {0.0, 10.0, 20.0};
-
-matrix::Surface bent(double curvature, const std::string& name = "surface", std::uint32_t mount = 1) {
-  return {name, mount, {{curvature, 0, 0}}, {}};
-}
 
 matrix::Surface bentEach(const std::vector<double>& curvatures) {
   matrix::Surface surface{"limb", 1, {}, {}};

@@ -20,8 +20,7 @@
 namespace fsr::calibration {
 namespace {
 
-constexpr matrix::MatrixSize kSize{2, 2};
-constexpr std::uint16_t kFullScale = 1023;
+constexpr matrix::MatrixSize kFourTaxels{2, 2};
 
 class HostileFile : public testing::Test {
  protected:
@@ -32,7 +31,7 @@ class HostileFile : public testing::Test {
     return test_support::fileComplaint(sound(), path_, spoil);
   }
   static Calibration sound() {
-    Calibration calibration = test_support::smallCalibration(kSize, {0.0, 10.0}, "A", kFullScale);
+    Calibration calibration = test_support::smallCalibration(kFourTaxels, {0.0, 10.0}, "A", 1023);
     calibration.tables.scheme = compensation::Scheme::kCurvatureMap;
     calibration.tables.rule.blend = compensation::BlendRule::kInterpolate;
     return calibration;
@@ -101,9 +100,9 @@ TEST_F(HostileFile, AListInsteadOfATextIsRefused) {
 std::uint16_t flagsOf(const Calibration& calibration) {
   Calibrator calibrator(calibration.tables, calibration.layout);
   calibrator.setSurface({"between", 1, {{5, 0, 0}}, {}}, 0);
-  const std::vector<std::uint16_t> counts(kSize.taxels(), 500);
+  const std::vector<std::uint16_t> counts(kFourTaxels.taxels(), 500);
   map::PressureMap map;
-  calibrator.calibrate({kSize, kFullScale, counts.data(), counts.size()}, 0, map);
+  calibrator.calibrate({kFourTaxels, 1023, counts.data(), counts.size()}, 0, map);
   EXPECT_FALSE(std::isinf(map.pressure[0]));
   return std::isnan(map.pressure[0]) ? map.flags[0] : std::uint16_t{0};
 }

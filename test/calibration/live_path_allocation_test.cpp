@@ -15,12 +15,12 @@
 namespace fsr::calibration {
 namespace {
 
-constexpr matrix::MatrixSize kSize{16, 10};
+constexpr matrix::MatrixSize kBoardSize{16, 10};
 
 class LivePath : public protocol::PacketHandler {
  public:
   explicit LivePath(compensation::BlendRule blend)
-      : calibrator_(tables(blend), matrix::Layout{kSize}, options()) {
+      : calibrator_(tables(blend), matrix::Layout{kBoardSize}, options()) {
     stamper_.startLine(921600);
   }
 
@@ -54,7 +54,7 @@ class LivePath : public protocol::PacketHandler {
 
  private:
   static compensation::CurvatureTables tables(compensation::BlendRule blend) {
-    compensation::CurvatureTables tables = test_support::smallTables(kSize, {0.0, 10.0, 20.0}, 1023);
+    compensation::CurvatureTables tables = test_support::smallTables(kBoardSize, {0.0, 10.0, 20.0}, 1023);
     tables.rule.blend = blend;
     tables.rule.length_scale = {5.0};
     for (regression::CodeTable& table : tables.tables) table.log_weight.assign(table.pressure.size(), 0.0F);
@@ -96,7 +96,7 @@ class Line {
 
  private:
   static constexpr fsr_wire_identity kBoard = {"0123456789abcdef", "1.2.0", "", 16, 10, 1023, 1000};
-  std::vector<std::uint16_t> counts_ = std::vector<std::uint16_t>(kSize.taxels());
+  std::vector<std::uint16_t> counts_ = std::vector<std::uint16_t>(kBoardSize.taxels());
   std::vector<std::uint8_t> bytes_ = std::vector<std::uint8_t>(1024);
 };
 

@@ -8,6 +8,7 @@
 #include "compensation/training_statistics.h"
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "support/holds.h"
 #include "support/source_dir.h"
 #include "support/synthetic_recording.h"
 
@@ -151,12 +152,7 @@ INSTANTIATE_TEST_SUITE_P(All, Merge,
                          [](const auto& set) { return set.param.name; });
 
 std::string complaint(const std::vector<MergePart>& parts) {
-  try {
-    mergeCalibrations(parts);
-  } catch (const settings::InputError& error) {
-    return error.what();
-  }
-  return "merged";
+  return test_support::refusal([&] { mergeCalibrations(parts); }, "merged");
 }
 
 TEST(MergeRefuses, CalibrationsThatWereTrainedDifferently) {

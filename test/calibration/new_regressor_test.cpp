@@ -12,6 +12,7 @@
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "fsr_pressure_map/calibration/calibrator.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "support/holds.h"
 #include "support/nearest_code.h"
 #include "support/synthetic_recording.h"
 
@@ -21,7 +22,7 @@ namespace {
 using test_support::regressorsWithNearestCode;
 using test_support::SyntheticRig;
 
-constexpr double kOffset = 1000;  // [Pa]
+constexpr double kAdded = 1000;  // [Pa]
 
 SyntheticRig rig(unsigned seed) {
   SyntheticRig rig;
@@ -36,18 +37,13 @@ CalibrationProblem problem(unsigned seed = 1) {
   CalibrationProblem problem{{syntheticRecording(rig(seed))}, {}};
   problem.options.scheme = compensation::Scheme::kPerCurvature;
   problem.options.regressor.name = "nearest_code";
-  problem.options.regressor.more["offset"] = kOffset;
+  problem.options.regressor.more["offset"] = kAdded;
   problem.options.regressor.table = &regressorsWithNearestCode();
   return problem;
 }
 
 std::string refusal(const CalibrationProblem& problem) {
-  try {
-    calibrate(problem);
-  } catch (const settings::InputError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return test_support::refusal([&] { calibrate(problem); }, "accepted");
 }
 
 TEST(NewRegressor, TrainsAndAnswersAfterSavingAndLoading) {
@@ -71,7 +67,7 @@ TEST(NewRegressor, TrainsAndAnswersAfterSavingAndLoading) {
   map::PressureMap map;
   calibrator.calibrate({made.size, made.full_scale, counts.data(), counts.size()}, 0, map);
   constexpr double kBetweenTwoScans = 12e3;  // [Pa]: a cycle of 100 scans up to 600 kPa and down
-  for (const float answer : map.pressure) EXPECT_NEAR(answer, pressure + kOffset, kBetweenTwoScans);
+  for (const float answer : map.pressure) EXPECT_NEAR(answer, pressure + kAdded, kBetweenTwoScans);
   std::filesystem::remove(path);
 }
 

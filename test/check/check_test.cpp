@@ -12,6 +12,7 @@
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "fsr_pressure_map/calibration/calibrator.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "support/holds.h"
 #include "support/memory_rig.h"
 #include "support/source_dir.h"
 #include "support/synthetic_recording.h"
@@ -23,13 +24,14 @@ using fsr::check::ChangeModel;
 using fsr::check::CheckResult;
 using fsr::check::Verdict;
 using fsr::dataset::Recording;
+using test_support::refusal;
 using test_support::SyntheticRig;
 
 // Reading of today for a reading of before; taxel.
 using Change = std::function<double(double reading, std::size_t taxel)>;
 
 // The sheet has a loop, as real ones do: without one the smallest change would be worth a correction.
-SyntheticRig rig(unsigned seed, bool bent = true) {
+SyntheticRig loopedRig(unsigned seed, bool bent = true) {
   SyntheticRig result;
   result.name = "sheet_" + std::to_string(seed) + ".bag";
   result.surfaces = {{"flat", 0.0}};
@@ -61,7 +63,7 @@ Calibration trainedOn(const Recording& recording) {
 }
 
 const Calibration& parent() {
-  static const Calibration instance = trainedOn(syntheticRecording(rig(1)));
+  static const Calibration instance = trainedOn(syntheticRecording(loopedRig(1)));
   return instance;
 }
 
@@ -79,12 +81,12 @@ CheckResult decide(const Calibration& calibration, const std::vector<Recording>&
 }
 
 CheckResult recheck(const Change& change, unsigned seed = 2, bool bent = false) {
-  return decide(parent(), {changed(syntheticRecording(rig(seed, bent)), change)}, sameMount());
+  return decide(parent(), {changed(syntheticRecording(loopedRig(seed, bent)), change)}, sameMount());
 }
 
 // One bag, one file, one expected error.
 TEST(Check, StatesTheExpectedErrorOfTheMap) {
-  const std::vector<Recording> recordings = {syntheticRecording(rig(2, false))};
+  const std::vector<Recording> recordings = {syntheticRecording(loopedRig(2, false))};
   const double checked = fsr::check::errorsOfMap(parent(), recordings).whole.expected_rmse;
   EXPECT_DOUBLE_EQ(decide(parent(), recordings, sameMount()).correction->expected, checked);
   const Change worn = [](double reading, std::size_t) { return 0.9 * reading + 30; };
@@ -101,7 +103,7 @@ std::vector<Recording> mounts(const std::vector<double>& gains, const Change& ch
   for (std::size_t i = 0; i < gains.size(); ++i) {
     const double gain = gains[i];
     const auto mounted = [&](double reading, std::size_t taxel) { return gain * change(reading, taxel); };
-    recordings.push_back(changed(syntheticRecording(rig(20 + unsigned(i), false)), mounted));
+    recordings.push_back(changed(syntheticRecording(loopedRig(20 + unsigned(i), false)), mounted));
     recordings.back().conditions[0].mount = std::uint32_t(2 + i);
   }
   return recordings;
@@ -127,16 +129,6 @@ double rmse(const Calibration& calibration, const Recording& recording) {
   return fsr::check::errorsOfMap(calibration, {recording}).whole.rmse;
 }
 
-template <typename Action>
-std::string refusal(const Action& action) {
-  try {
-    action();
-  } catch (const fsr::settings::InputError& error) {
-    return error.what();
-  }
-  return "";
-}
-
 TEST(Check, CorrectsAPlantedGainAndOffset) {
   const CheckResult result = recheck(worn);
   ASSERT_EQ(result.verdict, Verdict::kCorrected) << said(result);
@@ -153,8 +145,8 @@ TEST(Check, CorrectsAPlantedGainAndOffset) {
 TEST(Check, CorrectsSurfacesThatWereNotRechecked) {
   const CheckResult result = recheck(worn);
   ASSERT_TRUE(result.child.has_value());
-  const Recording test = changed(syntheticRecording(rig(4)), worn);
-  const double anew = rmse(trainedOn(changed(syntheticRecording(rig(3)), worn)), test);
+  const Recording test = changed(syntheticRecording(loopedRig(4)), worn);
+  const double anew = rmse(trainedOn(changed(syntheticRecording(loopedRig(3)), worn)), test);
   EXPECT_LT(rmse(*result.child, test), 1.1 * anew);
   EXPECT_GT(rmse(parent(), test), 1.2 * anew);
 }
@@ -241,7 +233,7 @@ TEST(Check, CorrectsAllTaxelsAlikeWhereMountsScatterByTaxel) {
       return 0.9 * (1 + scatter * (double(taxel) - 2.5) / 2.5) * reading;
     };
     const auto mount = std::uint32_t(2 + recordings.size());
-    recordings.push_back(changed(syntheticRecording(rig(30 + mount, false)), mounted));
+    recordings.push_back(changed(syntheticRecording(loopedRig(30 + mount, false)), mounted));
     recordings.back().conditions[0].mount = mount;
   }
   const CheckResult result = decide(parent(), recordings);
@@ -285,7 +277,7 @@ TEST(Check, ComparesReadingsAtTheTemperatureOfTheTraining) {
   model.temperature.reference = 23;
   model.temperature.low = 20;
   model.temperature.high = 40;
-  Recording warm = syntheticRecording(rig(2, false));
+  Recording warm = syntheticRecording(loopedRig(2, false));
   for (double& pressure : warm.pressure) pressure *= 1 - 0.006 * 15;
   warm.temperature.assign(warm.scans(), 38.0);
   EXPECT_EQ(decide(model, {warm}, sameMount()).verdict, Verdict::kStillGood);
@@ -315,7 +307,7 @@ TEST(Check, TaresSessionsWhereTheCalibrationExpectsIt) {
   for (auto& table : tared.tables.tables) {
     for (float& pressure : table.pressure) pressure += 30e3F;  // as the zero of a session
   }
-  const Recording plain = syntheticRecording(rig(2, false));
+  const Recording plain = syntheticRecording(loopedRig(2, false));
   const CheckResult without = decide(tared, {plain});
   EXPECT_NE(without.verdict, Verdict::kStillGood);
   ASSERT_FALSE(without.correction->remarks.empty());
@@ -364,12 +356,12 @@ TEST(Check, AdvisesATareWhereItTakesTheErrorAway) {
 }
 
 TEST(Check, RefusesWhatDoesNotFitTheParent) {
-  Recording other = syntheticRecording(rig(2, false)), surface = other, without = other;
+  Recording other = syntheticRecording(loopedRig(2, false)), surface = other, without = other;
   other.sensor.serial = "FSR-0002";
   surface.conditions[0].name = "cylinder_3cm";
   surface.conditions[0].curvature = {{33.3, 0, 0}};
   without.pressure.clear();
-  SyntheticRig larger = rig(2, false), few = larger, low = larger;
+  SyntheticRig larger = loopedRig(2, false), few = larger, low = larger;
   larger.size = {3, 3};
   few.cycles = 2;
   low.peak = 200e3;
@@ -390,10 +382,10 @@ TEST(Check, RefusesWhatDoesNotFitTheParent) {
 // A small cycle runs through another loop than those of the training, and a loading alone through half a
 // loop.
 TEST(Check, LeavesOutCyclesThatAreSmallOrNotWhole) {
-  SyntheticRig half = rig(3, false);
+  SyntheticRig half = loopedRig(3, false);
   half.peak = 300e3;
   half.cycles = 2;
-  Recording recording = syntheticRecording(rig(2, false));
+  Recording recording = syntheticRecording(loopedRig(2, false));
   const CheckResult whole = decide(parent(), {recording});
   EXPECT_EQ(whole.correction->cycles, 5u);
   EXPECT_TRUE(whole.correction->remarks.empty());
@@ -416,7 +408,7 @@ TEST(Check, RefusesTheChildOfAChild) {
   Calibration child = *first.child;
   child.id = "ba9876543210";
   EXPECT_EQ(
-      refusal([&] { decide(child, {syntheticRecording(rig(2, false))}); }),
+      refusal([&] { decide(child, {syntheticRecording(loopedRig(2, false))}); }),
       "calibration ba9876543210 is itself a correction of 0123456789ab; correct that one again with the "
       "new bags, or train anew");
 }

@@ -14,7 +14,7 @@ namespace fsr::compensation {
 namespace {
 
 constexpr std::uint16_t kFullScale = 1023;
-const std::vector<dataset::CurvatureClass> kClasses = {
+const std::vector<dataset::CurvatureClass> kThreeClasses = {
     {"flat", {0.0}}, {"radius_10cm", {10.0}}, {"radius_5cm", {20.0}}};
 
 // Readings that numpy can reproduce:
@@ -29,7 +29,7 @@ regression::CodeSamples samplesOf(std::size_t curvature_class, int keep_each = 1
   const int number = 60 + 20 * static_cast<int>(curvature_class);
   for (int i = 0; i < number; i += keep_each) {
     const int code = (37 * i * i + 11 * i * (static_cast<int>(curvature_class) + 1)) % 900 + 100;
-    const double curvature = kClasses[curvature_class].curvature[0];
+    const double curvature = kThreeClasses[curvature_class].curvature[0];
     samples.add(static_cast<std::uint16_t>(code), regression::toFixed(400.0 * code * (1 - 0.01 * curvature) +
                                                                       2000 * curvature + (7919 * i) % 1000));
   }
@@ -39,7 +39,7 @@ regression::CodeSamples samplesOf(std::size_t curvature_class, int keep_each = 1
 regression::ClassReadings threeClasses(int keep_each = 1) {
   regression::ClassReadings readings;
   readings.full_scale = kFullScale;
-  for (std::size_t k = 0; k < kClasses.size(); ++k) {
+  for (std::size_t k = 0; k < kThreeClasses.size(); ++k) {
     readings.samples.push_back(samplesOf(k, keep_each));
     readings.sums.emplace_back(kFullScale);
     readings.sums.back().add(regression::statisticsOf(readings.samples.back()));
@@ -55,7 +55,7 @@ regression::RegressorOptions grnn(double bandwidth) {
 
 double answer(Scheme scheme, const regression::RegressorOptions& regressor, std::size_t code,
               std::size_t on_class) {
-  const SchemePlan plan = planScheme(scheme, kClasses);
+  const SchemePlan plan = planScheme(scheme, kThreeClasses);
   return fitScheme(plan, 0, threeClasses(), regressor)[plan.model_of_class[on_class]].pressure[code];
 }
 
@@ -120,8 +120,8 @@ TEST(FitScheme, CurvatureInputIsPerCurvatureAtThePapersBandwidth) {
   for (const regression::CodeHistogram& sums : readings.sums) all.add(sums);
   for (const Scheme scheme : {Scheme::kCurvatureInput, Scheme::kOneHot}) {
     const std::vector<regression::Fit> with_input =
-        fitScheme(planScheme(scheme, kClasses), 0, readings, grnn(regression::kPaperBandwidth));
-    for (std::size_t k = 0; k < kClasses.size(); ++k) {
+        fitScheme(planScheme(scheme, kThreeClasses), 0, readings, grnn(regression::kPaperBandwidth));
+    for (std::size_t k = 0; k < kThreeClasses.size(); ++k) {
       // the model of the class, with the bandwidth in units of all readings
       const double unit = regression::readingDeviation(all) / regression::readingDeviation(readings.sums[k]);
       const regression::Fit alone =
@@ -139,10 +139,10 @@ TEST(FitScheme, BinaryInputIsFlatOrCurvedAtThePapersBandwidth) {
   for (const regression::CodeHistogram& sums : readings.sums) all.add(sums);
   for (const std::size_t k : {1, 2}) bent.add(readings.sums[k]);
   const double unit = regression::readingDeviation(all) / regression::readingDeviation(bent);
-  const auto two = fitScheme(planScheme(Scheme::kFlatOrCurved, kClasses), 0, readings,
+  const auto two = fitScheme(planScheme(Scheme::kFlatOrCurved, kThreeClasses), 0, readings,
                              grnn(regression::kPaperBandwidth * unit));
-  const auto input =
-      fitScheme(planScheme(Scheme::kBinaryInput, kClasses), 0, readings, grnn(regression::kPaperBandwidth));
+  const auto input = fitScheme(planScheme(Scheme::kBinaryInput, kThreeClasses), 0, readings,
+                               grnn(regression::kPaperBandwidth));
   for (std::size_t code = 0; code <= kFullScale; ++code) {
     EXPECT_NEAR(input[1].pressure[code] / two[1].pressure[code], 1.0, 1e-12);
   }
@@ -153,17 +153,17 @@ TEST(FitScheme, AForestDoesNotDependOnTheUnitOfCurvature) {
   forest.name = "forest";
   forest.forest.trees = 20;
   const regression::ClassReadings readings = threeClasses();
-  const auto fits = fitScheme(planScheme(Scheme::kCurvatureInput, kClasses), 0, readings, forest);
+  const auto fits = fitScheme(planScheme(Scheme::kCurvatureInput, kThreeClasses), 0, readings, forest);
   regression::CodeSamples all;
   all.full_scale = kFullScale;
-  for (std::size_t k = 0; k < kClasses.size(); ++k) {
+  for (std::size_t k = 0; k < kThreeClasses.size(); ++k) {
     regression::CodeSamples samples = readings.samples[k];
-    samples.curvature.assign(samples.size(), kClasses[k].curvature[0]);
+    samples.curvature.assign(samples.size(), kThreeClasses[k].curvature[0]);
     all.append(samples);
   }
   const regression::CurvatureSteps steps = regression::fitCurvatureForest(all, forest.forest);
-  for (std::size_t k = 0; k < kClasses.size(); ++k) {
-    EXPECT_EQ(fits[k].pressure, steps.at(kClasses[k].curvature[0]).pressure);
+  for (std::size_t k = 0; k < kThreeClasses.size(); ++k) {
+    EXPECT_EQ(fits[k].pressure, steps.at(kThreeClasses[k].curvature[0]).pressure);
   }
 }
 
@@ -171,14 +171,14 @@ TEST(FitScheme, AClassWithoutReadingsIsPredictedFromItsNeighboursWithCurvatureAs
   regression::ClassReadings readings = threeClasses();
   readings.sums[1] = regression::CodeHistogram(kFullScale);
   readings.samples.clear();
-  const auto input = fitScheme(planScheme(Scheme::kCurvatureInput, kClasses), 0, readings, grnn(1.0));
-  const auto alone = fitScheme(planScheme(Scheme::kPerCurvature, kClasses), 0, readings, grnn(1.0));
+  const auto input = fitScheme(planScheme(Scheme::kCurvatureInput, kThreeClasses), 0, readings, grnn(1.0));
+  const auto alone = fitScheme(planScheme(Scheme::kPerCurvature, kThreeClasses), 0, readings, grnn(1.0));
   EXPECT_TRUE(alone[1].pressure.empty());
   EXPECT_GT(input[1].pressure[500], input[0].pressure[500]);
   EXPECT_LT(input[1].pressure[500], input[2].pressure[500]);
   readings.sums[0] = readings.sums[2] = regression::CodeHistogram(kFullScale);
   for (const regression::Fit& fit :
-       fitScheme(planScheme(Scheme::kCurvatureInput, kClasses), 0, readings, grnn(1.0))) {
+       fitScheme(planScheme(Scheme::kCurvatureInput, kThreeClasses), 0, readings, grnn(1.0))) {
     EXPECT_TRUE(fit.pressure.empty());
   }
 }
@@ -188,16 +188,16 @@ TEST(FitScheme, AClassWithoutReadingsIsPredictedByTheSchemesRule) {
   readings.samples.clear();
   readings.sums[1] = regression::CodeHistogram(kFullScale);
   const auto answer = [&](Scheme scheme, const EffectLaw& law = {}) {
-    const SchemePlan plan = planScheme(scheme, kClasses);
+    const SchemePlan plan = planScheme(scheme, kThreeClasses);
     return answerOn(plan, 0, readings, fitScheme(plan, 0, readings, grnn(0.1)), 1, law);
   };
-  const auto alone = fitScheme(planScheme(Scheme::kPerCurvature, kClasses), 0, readings, grnn(0.1));
+  const auto alone = fitScheme(planScheme(Scheme::kPerCurvature, kThreeClasses), 0, readings, grnn(0.1));
   const std::vector<double>&flat = alone[0].pressure, &bent = alone[2].pressure;
   EXPECT_EQ(answer(Scheme::kPerCurvature), flat);  // midway: the first of two equally near classes
   EXPECT_EQ(answer(Scheme::kFlatOrCurved), flat);
   EXPECT_NEAR(answer(Scheme::kInterpolated)[500], 0.5 * (flat[500] + bent[500]), 1e-6);
   EXPECT_EQ(answer(Scheme::kBaseline),
-            fitScheme(planScheme(Scheme::kBaseline, kClasses), 0, readings, grnn(0.1))[0].pressure);
+            fitScheme(planScheme(Scheme::kBaseline, kThreeClasses), 0, readings, grnn(0.1))[0].pressure);
   const EffectLaw law{{0, 10, 20}, {1.0, 0.8, 0.8}, {0, 0, 0}};  // the full effect from 10 1/m on
   EXPECT_NEAR(answer(Scheme::kCurvatureMap, law)[500], 0.8 / 0.9 * 0.5 * (flat[500] + bent[500]), 1e-6);
 }
@@ -206,7 +206,8 @@ TEST(FitScheme, ASingleClassIsFittedWithoutItsCurvature) {
   regression::ClassReadings readings = threeClasses();
   readings.sums.erase(readings.sums.begin() + 1, readings.sums.end());
   readings.samples.clear();
-  const auto input = fitScheme(planScheme(Scheme::kCurvatureInput, {kClasses[0]}), 0, readings, grnn(0.1));
+  const auto input =
+      fitScheme(planScheme(Scheme::kCurvatureInput, {kThreeClasses[0]}), 0, readings, grnn(0.1));
   const regression::Fit alone = regression::Grnn(0.1).fit(readings.sums[0]);
   for (std::size_t code = 0; code <= kFullScale; ++code) {
     EXPECT_NEAR(input[0].pressure[code] / alone.pressure[code], 1.0, 1e-12);
@@ -218,7 +219,7 @@ TEST(FitScheme, HeldOutModelsAreTrainedOnTheOtherSections) {
   readings.full_scale = kFullScale;
   regression::ClassReadings without_first;
   without_first.full_scale = kFullScale;
-  for (std::size_t k = 0; k < kClasses.size(); ++k) {
+  for (std::size_t k = 0; k < kThreeClasses.size(); ++k) {
     readings.sums.push_back({regression::statisticsOf(samplesOf(k)),
                              regression::statisticsOf(samplesOf(k, 2)),
                              regression::statisticsOf(samplesOf(k, 3))});
@@ -226,7 +227,7 @@ TEST(FitScheme, HeldOutModelsAreTrainedOnTheOtherSections) {
     for (const std::size_t s : {1, 2}) without_first.sums.back().add(readings.sums[k][s]);
   }
   for (const Scheme scheme : {Scheme::kBaseline, Scheme::kCurvatureInput, Scheme::kFlatOrCurved}) {
-    const SchemePlan plan = planScheme(scheme, kClasses);
+    const SchemePlan plan = planScheme(scheme, kThreeClasses);
     const auto models = crossValidateScheme(plan, 0, readings, grnn(0.1), regression::HeldOutDeviation::kYes);
     const auto fits = fitScheme(plan, 0, without_first, grnn(0.1));
     ASSERT_EQ(models.size(), plan.models.size());

@@ -8,9 +8,8 @@
 namespace fsr::compensation {
 namespace {
 
-constexpr std::uint16_t kFullScale = 1023;
 constexpr std::size_t kSections = 3;
-const std::vector<dataset::CurvatureClass> kClasses = {
+const std::vector<dataset::CurvatureClass> kFiveClasses = {
     {"flat", {0.0}}, {"r20", {5.0}}, {"r10", {10.0}}, {"r7", {15.0}}, {"r5", {20.0}}};
 
 // One taxel. A reading of code c has the pressure 500 Pa x c x (1 + effect of its class), with 10 kPa of
@@ -18,10 +17,10 @@ const std::vector<dataset::CurvatureClass> kClasses = {
 TrainingStatistics statisticsOf(const std::vector<double>& effect) {
   std::mt19937 random(1);
   std::normal_distribution<double> noise(0.0, 10e3);  // [Pa]
-  TrainingStatistics statistics{kFullScale, 1, kSections, kClasses, {}, {}};
+  TrainingStatistics statistics{1023, 1, kSections, kFiveClasses, {}, {}};
   for (const double own : effect) {
     for (std::size_t section = 0; section < kSections; ++section) {
-      regression::CodeAccumulator readings(kFullScale);
+      regression::CodeAccumulator readings(1023);
       for (std::uint16_t code = 20; code < 1000; code = static_cast<std::uint16_t>(code + 2)) {
         readings.add(code, regression::toFixed(500.0 * code * (1 + own) + noise(random)));
       }
@@ -32,7 +31,7 @@ TrainingStatistics statisticsOf(const std::vector<double>& effect) {
 }
 
 SchemePlan learn(Scheme scheme, const std::vector<double>& effect) {
-  SchemePlan plan = planScheme(scheme, kClasses);
+  SchemePlan plan = planScheme(scheme, kFiveClasses);
   regression::GrnnOptions grnn;
   grnn.bandwidth = 0.05;
   learnScheme(statisticsOf(effect), grnn, {0}, 1, plan);
@@ -66,7 +65,7 @@ TEST(LearnScheme, OtherSchemesLearnNothing) {
 
 TEST(LearnScheme, OneCurvatureHasNoScale) {
   TrainingStatistics statistics = statisticsOf({0.0});
-  statistics.classes = {kClasses[0]};
+  statistics.classes = {kFiveClasses[0]};
   SchemePlan plan = planScheme(Scheme::kScaledCurvature, statistics.classes);
   learnScheme(statistics, {}, {0}, 1, plan);
   EXPECT_EQ(plan.curvature_scale, 0.0);

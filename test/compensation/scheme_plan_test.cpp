@@ -10,11 +10,11 @@ namespace {
 
 using Indices = std::vector<std::size_t>;
 
-const std::vector<dataset::CurvatureClass> kClasses = {
+const std::vector<dataset::CurvatureClass> kPlanClasses = {
     {"socket", {-10.0}}, {"flat", {0.0}}, {"cylinder_7cm", {14.3}}, {"limb", {0.0, 9.0}}};
 
 TEST(SchemePlan, PerCurvatureHasAModelForEachClass) {
-  const SchemePlan plan = planScheme(Scheme::kPerCurvature, kClasses);
+  const SchemePlan plan = planScheme(Scheme::kPerCurvature, kPlanClasses);
   ASSERT_EQ(plan.models.size(), 4u);
   EXPECT_EQ(plan.models[2].answers_for.surface, "cylinder_7cm");
   EXPECT_EQ(plan.models[2].trained_on, Indices{2});
@@ -22,14 +22,14 @@ TEST(SchemePlan, PerCurvatureHasAModelForEachClass) {
 }
 
 TEST(SchemePlan, BaselineHasOneModelForAllClasses) {
-  const SchemePlan plan = planScheme(Scheme::kBaseline, kClasses);
+  const SchemePlan plan = planScheme(Scheme::kBaseline, kPlanClasses);
   ASSERT_EQ(plan.models.size(), 1u);
   EXPECT_EQ(plan.models[0].trained_on, (Indices{0, 1, 2, 3}));
   EXPECT_EQ(plan.model_of_class, (Indices{0, 0, 0, 0}));
 }
 
 TEST(SchemePlan, FlatOnlyTrainsOnTheFlatClassAndAnswersForAll) {
-  const SchemePlan plan = planScheme(Scheme::kFlatOnly, kClasses);
+  const SchemePlan plan = planScheme(Scheme::kFlatOnly, kPlanClasses);
   ASSERT_EQ(plan.models.size(), 1u);
   EXPECT_EQ(plan.models[0].answers_for.surface, "flat");
   EXPECT_EQ(plan.models[0].trained_on, Indices{1});
@@ -38,14 +38,14 @@ TEST(SchemePlan, FlatOnlyTrainsOnTheFlatClassAndAnswersForAll) {
 
 TEST(SchemePlan, FlatOnlyNeedsAFlatClass) {
   EXPECT_EQ(test_support::refusal([&] {
-              planScheme(Scheme::kFlatOnly, {kClasses[0], kClasses[2]});
+              planScheme(Scheme::kFlatOnly, {kPlanClasses[0], kPlanClasses[2]});
             }),
             "scheme is flat_only, but no recording is of a flat surface (there is socket, cylinder_7cm); "
             "add one, or choose baseline or per_curvature");
 }
 
 TEST(SchemePlan, FlatOrCurvedHasTwoModels) {
-  const SchemePlan plan = planScheme(Scheme::kFlatOrCurved, kClasses);
+  const SchemePlan plan = planScheme(Scheme::kFlatOrCurved, kPlanClasses);
   ASSERT_EQ(plan.models.size(), 2u);
   EXPECT_EQ(plan.models[0].trained_on, Indices{1});
   EXPECT_EQ(plan.models[1].trained_on, (Indices{0, 2, 3}));
@@ -53,17 +53,17 @@ TEST(SchemePlan, FlatOrCurvedHasTwoModels) {
 }
 
 TEST(SchemePlan, WithASecondInputEveryModelIsTrainedOnAllClasses) {
-  const SchemePlan binary = planScheme(Scheme::kBinaryInput, kClasses);
+  const SchemePlan binary = planScheme(Scheme::kBinaryInput, kPlanClasses);
   ASSERT_EQ(binary.models.size(), 2u);
   EXPECT_EQ(binary.models[1].trained_on, (Indices{0, 1, 2, 3}));
   EXPECT_EQ(binary.testedOn(1), (Indices{0, 2, 3}));
-  const SchemePlan input = planScheme(Scheme::kCurvatureInput, kClasses);
+  const SchemePlan input = planScheme(Scheme::kCurvatureInput, kPlanClasses);
   ASSERT_EQ(input.models.size(), 4u);
   EXPECT_EQ(input.testedOn(2), Indices{2});
 }
 
 TEST(SchemePlan, FlatOrCurvedNeedsFlatAndBentClasses) {
-  EXPECT_EQ(test_support::refusal([&] { planScheme(Scheme::kFlatOrCurved, {kClasses[1]}); }),
+  EXPECT_EQ(test_support::refusal([&] { planScheme(Scheme::kFlatOrCurved, {kPlanClasses[1]}); }),
             "scheme is flat_or_curved, but no recording is of a bent surface; add one, or choose flat_only");
 }
 

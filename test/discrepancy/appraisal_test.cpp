@@ -10,45 +10,30 @@ namespace {
 
 using simulation::Covariate;
 
-constexpr double kPi = 3.14159265358979323846;
-
-double loop(const drawn::Place& at) {
-  return at.direction * std::sin(kPi * at.share);
-}
-double turning(const drawn::Place& at) {
-  return at.direction * std::sin(2 * kPi * at.share);
-}
 double fading(const drawn::Place& at) {
   return at.share * std::exp(-static_cast<double>(at.cycle) / 6);
 }
 // The loop, but for one part in a thousand.
 double nearlyLoop(const drawn::Place& at) {
-  return loop(at) + 1e-3 * turning(at);
+  return drawn::loop(at) + 1e-3 * drawn::turning(at);
 }
 // A loop in another form.
 double mixed(const drawn::Place& at) {
-  return loop(at) + 0.5 * turning(at);
+  return drawn::loop(at) + 0.5 * drawn::turning(at);
 }
 
 constexpr double kSize = 3e-3;  // of what is planted [share of full scale]
 
 enum Column : Eigen::Index { kLoop, kTurning, kFading, kNearlyLoop, kMixed };
 CycleDesign emptyDesign() {
-  return drawn::design({30, 16, 1, 14, {loop, turning, fading, nearlyLoop, mixed}});
-}
-
-CycleNoise noise() {
-  CycleNoise noise = drawn::whiteNoise();
-  noise.variance[CycleNoise::kCycleGain] = 1e-6;
-  noise.variance[CycleNoise::kSlow] = 4e-8;
-  return noise;
+  return drawn::design({30, 16, 1, 14, {drawn::loop, drawn::turning, fading, nearlyLoop, mixed}});
 }
 
 // The same noise, and a column.
 CycleDesign designWith(Eigen::Index column, double coefficient, std::uint64_t seed = 1) {
   CycleDesign design = emptyDesign();
   drawn::addColumn(design, column, coefficient);
-  drawn::addNoise(design, noise(), seed);
+  drawn::addNoise(design, drawn::wanderingNoise(), seed);
   return design;
 }
 
@@ -132,7 +117,7 @@ TEST(Appraisal, NamesAPairWhereOneEffectIsNotEnough) {
   CycleDesign both = emptyDesign();
   drawn::addColumn(both, kLoop, kSize);
   drawn::addColumn(both, kFading, 2 * kSize);
-  drawn::addNoise(both, noise(), 1);
+  drawn::addNoise(both, drawn::wanderingNoise(), 1);
   EXPECT_EQ(credible(appraisalOf(both, all)), std::vector<std::string>{"a + c"});
   EXPECT_EQ(credible(appraisalOf(designWith(kLoop, kSize), all)), std::vector<std::string>{"a"});
   all.back() = {{"a", "c"}, {{{kLoop}, {false}}}, {}};
@@ -144,7 +129,7 @@ TEST(Appraisal, SaysWhatASecondEffectAdds) {
   CycleDesign both = emptyDesign();
   drawn::addColumn(both, kLoop, kSize);
   drawn::addColumn(both, kTurning, kSize / 3);
-  drawn::addNoise(both, noise(), 1);
+  drawn::addNoise(both, drawn::wanderingNoise(), 1);
   const Appraisal appraisal = appraisalOf(both, usual());
   ASSERT_EQ(credible(appraisal), std::vector<std::string>{"a"});
   EXPECT_LE(appraisal.p_beyond, 0.01);

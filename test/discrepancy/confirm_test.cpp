@@ -9,8 +9,8 @@
 namespace fsr::discrepancy {
 namespace {
 
-const char* const kLoop = "  hysteresis: {loop_width: 0.05}\n";
-const char* const kMemory = "  creep: {per_decade: 0.03, slowest: 100}\n";
+const char* const kLoopText = "  hysteresis: {loop_width: 0.05}\n";
+const char* const kMemoryText = "  creep: {per_decade: 0.03, slowest: 100}\n";
 
 // Another protocol and other noise than planted::kTwoSpeeds.
 const std::string kNewProtocol = planted::rig(R"(program:
@@ -61,13 +61,14 @@ Confirmation answer(const Frozen& frozen, const std::string& hidden) {
 class Confirm : public testing::Test {
  protected:
   static const Frozen& loop() {
-    static const Frozen one = frozen(planted::problem(planted::kTwoSpeeds, kLoop), kLoop, kMemory);
+    static const Frozen one =
+        frozen(planted::problem(planted::kTwoSpeeds, kLoopText), kLoopText, kMemoryText);
     return one;
   }
 };
 
 TEST_F(Confirm, PassesForTheRightEffectUnderAnotherProtocol) {
-  const Confirmation confirmation = answer(loop(), kLoop);
+  const Confirmation confirmation = answer(loop(), kLoopText);
   EXPECT_TRUE(confirmation.passed) << confirmation.sentence;
   EXPECT_NEAR(confirmation.size, 1, 0.02);
   EXPECT_LE(confirmation.p, 0.01);
@@ -79,8 +80,8 @@ TEST_F(Confirm, PassesForTheRightEffectUnderAnotherProtocol) {
 }
 
 TEST_F(Confirm, FailsForAWrongEffectAndNamesTheRivalThatIsBetter) {
-  const Frozen memory = frozen(planted::problem(planted::kTwoSpeeds, kLoop), kMemory, kLoop);
-  const Confirmation confirmation = answer(memory, kLoop);
+  const Frozen memory = frozen(planted::problem(planted::kTwoSpeeds, kLoopText), kMemoryText, kLoopText);
+  const Confirmation confirmation = answer(memory, kLoopText);
   EXPECT_FALSE(confirmation.passed) << confirmation.sentence;
   EXPECT_EQ(confirmation.best_rival, "hysteresis");
   EXPECT_TRUE(confirmation.rivals.at(0).better);
@@ -107,7 +108,7 @@ TEST_F(Confirm, TakesTheIntervalOfAPredictionFromAnEarlierVersion) {
   old.prediction.spread = {};
   old.prediction.size = {0.6, 1.6};
   old.prediction.hash = hashOf(old.prediction, old.base);
-  const Confirmation confirmation = answer(old, kLoop);
+  const Confirmation confirmation = answer(old, kLoopText);
   EXPECT_TRUE(confirmation.passed) << confirmation.sentence;
   EXPECT_NE(confirmation.sentence.find("earlier version"), std::string::npos);
 }
@@ -125,7 +126,7 @@ TEST(Freeze, PredictsAWiderRangeWithFewerCycles) {
   const auto width = [](int cycles) {
     std::string text = planted::kOneSurface;
     text.replace(text.find("cycles: 16"), 10, "cycles: " + std::to_string(cycles));
-    const Prediction made = frozen(planted::problem(text, kLoop), kLoop, kMemory).prediction;
+    const Prediction made = frozen(planted::problem(text, kLoopText), kLoopText, kMemoryText).prediction;
     EXPECT_LT(made.size.low, 1);
     EXPECT_GT(made.size.high, 1);
     return made.size.high - made.size.low;

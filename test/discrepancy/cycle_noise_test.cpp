@@ -9,11 +9,8 @@ namespace fsr::discrepancy {
 namespace {
 
 // White noise, a gain of each cycle of 1 % and a slow wandering of 3e-4 of full scale.
-CycleNoise planted() {
-  CycleNoise noise = drawn::whiteNoise();
-  noise.variance[CycleNoise::kCycleGain] = 1e-4;
-  noise.variance[CycleNoise::kSlow] = 9e-8;
-  return noise;
+CycleNoise plantedNoise() {
+  return drawn::wanderingNoise(1e-4, 9e-8);
 }
 
 double logLikelihood(const CycleDesign& design, const CycleNoise& noise) {
@@ -36,11 +33,11 @@ TEST(CycleNoise, RecoversVariancesThatWerePlanted) {
   std::array<double, CycleNoise::kParts> mean{};
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
     CycleDesign design = drawn::design({40, 24});
-    drawn::addNoise(design, planted(), seed);
+    drawn::addNoise(design, plantedNoise(), seed);
     StaticModel model(design);
     const CycleNoise noise = fitNoise(design, model);
     for (std::size_t k = 0; k < CycleNoise::kParts; ++k) mean[k] += noise.variance[k] / kSeeds;
-    EXPECT_GT(logLikelihood(design, noise), logLikelihood(design, planted()) - 5) << "seed " << seed;
+    EXPECT_GT(logLikelihood(design, noise), logLikelihood(design, plantedNoise()) - 5) << "seed " << seed;
   }
   EXPECT_NEAR(mean[CycleNoise::kCycleGain], 1e-4, 0.2e-4);
   EXPECT_NEAR(mean[CycleNoise::kSlow], 9e-8, 0.25 * 9e-8);
@@ -67,7 +64,7 @@ TEST(CycleNoise, ComesBackWhereAnExplanationTakesItsPlace) {
   const auto loop = [](const drawn::Place& at) { return at.direction * std::sin(3.14159265 * at.share); };
   CycleDesign design = drawn::design({30, 16, 1, 14, {loop}});
   drawn::addColumn(design, 0, 3e-3);
-  drawn::addNoise(design, planted(), 1);
+  drawn::addNoise(design, plantedNoise(), 1);
   StaticModel null(design);
   const CycleNoise without = fitNoise(design, null);
   EXPECT_LT(without.variance[CycleNoise::kWhite], 0.1);
@@ -81,7 +78,7 @@ TEST(CycleNoise, ComesBackWhereAnExplanationTakesItsPlace) {
 
 TEST(CycleNoise, EndsAtTheSamePlaceFromANearStart) {
   CycleDesign design = drawn::design({40, 24});
-  drawn::addNoise(design, planted(), 4);
+  drawn::addNoise(design, plantedNoise(), 4);
   StaticModel model(design);
   const CycleNoise noise = fitNoise(design, model);
   const double stiffness = model.stiffness;
@@ -98,7 +95,7 @@ TEST(CycleNoise, EndsAtTheSamePlaceFromANearStart) {
 TEST(CycleNoise, IsASumOfItsParts) {
   const CycleDesign design = drawn::design({2, 8});
   const CycleBins& bins = design.cycles[1];
-  const Eigen::MatrixXd covariance = planted().covariance(bins, design.cycle_time);
+  const Eigen::MatrixXd covariance = plantedNoise().covariance(bins, design.cycle_time);
   for (Eigen::Index a = 0; a < 8; ++a) {
     for (Eigen::Index b = 0; b < 8; ++b) {
       const double apart = std::abs(bins.time[a] - bins.time[b]);
@@ -142,7 +139,7 @@ CycleDesign threeVisits() {
     if (bins.curvature_class == 0 && c >= 9) bins.visit = 2;
   }
   drawn::addColumn(design, 0, 3e-3);
-  drawn::addNoise(design, planted(), 6);
+  drawn::addNoise(design, plantedNoise(), 6);
   return design;
 }
 
@@ -155,7 +152,7 @@ TEST(StaticSolution, EqualsADenseSolution) {
   Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(model.size(), model.size());
   Eigen::VectorXd right = Eigen::VectorXd::Zero(model.size());
   for (const CycleBins& bins : design.cycles) {
-    const Eigen::MatrixXd inverse = planted().covariance(bins, design.cycle_time).inverse();
+    const Eigen::MatrixXd inverse = plantedNoise().covariance(bins, design.cycle_time).inverse();
     Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(bins.bins(), model.size());
     const auto places = model.places(bins);
     for (std::size_t k = 0; k < places.size(); ++k)

@@ -9,17 +9,13 @@
 #include <regex>
 
 #include "simulation/effects/effect_library.h"
+#include "support/content_of.h"
 #include "support/source_dir.h"
 
 namespace fsr::discrepancy {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string textOf(const fs::path& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 // The texts in quotation marks, without comments.
 std::vector<std::string> stringsOf(const std::string& source) {
@@ -38,7 +34,7 @@ TEST(Decision, NamesNoEffect) {
     for (const fs::directory_entry& entry :
          fs::directory_iterator(fs::path(test_support::sourceDir()) / "src/discrepancy" / folder)) {
       ++files;
-      for (const std::string& text : stringsOf(textOf(entry.path()))) {
+      for (const std::string& text : stringsOf(test_support::contentOf(entry.path()))) {
         ++strings;
         for (const std::string& id : simulation::effectIds()) {
           EXPECT_FALSE(std::regex_search(text, std::regex("\\b" + id + "\\b")))

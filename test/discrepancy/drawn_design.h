@@ -113,4 +113,20 @@ inline CycleNoise whiteNoise() {
   return noise;
 }
 
+/// White noise with these variances of a cycle's gain and of slow wandering.
+inline CycleNoise wanderingNoise(double gain = 1e-6, double slow = 4e-8) {
+  CycleNoise noise = whiteNoise();
+  noise.variance[CycleNoise::kCycleGain] = gain;
+  noise.variance[CycleNoise::kSlow] = slow;
+  return noise;
+}
+
+// Columns: a loop, and one that changes its sign half-way.
+inline double loop(const Place& at) {
+  return at.direction * std::sin(M_PI * at.share);
+}
+inline double turning(const Place& at) {
+  return at.direction * std::sin(2 * M_PI * at.share);
+}
+
 }  // namespace fsr::discrepancy::drawn

@@ -10,23 +10,8 @@
 namespace fsr::discrepancy {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
-double loop(const drawn::Place& at) {
-  return at.direction * std::sin(kPi * at.share);
-}
-double fading(const drawn::Place& at) {
+double fadingSoon(const drawn::Place& at) {
   return at.share * std::exp(-static_cast<double>(at.cycle) / 3);
-}
-double turning(const drawn::Place& at) {
-  return at.direction * std::sin(2 * kPi * at.share);
-}
-
-CycleNoise noise() {
-  CycleNoise noise = drawn::whiteNoise();
-  noise.variance[CycleNoise::kCycleGain] = 1e-6;
-  noise.variance[CycleNoise::kSlow] = 4e-8;
-  return noise;
 }
 
 Explaining explaining(std::vector<Eigen::Index> columns, std::vector<bool> free) {
@@ -161,17 +146,17 @@ class Dense {
 };
 
 TEST(HeldOutScores, EqualADenseComputation) {
-  CycleDesign design = drawn::design({6, 8, 1, 4, {loop, fading}});
+  CycleDesign design = drawn::design({6, 8, 1, 4, {drawn::loop, fadingSoon}});
   drawn::addColumn(design, 0, 3e-4);
-  drawn::addNoise(design, noise(), 1);
+  drawn::addNoise(design, drawn::wanderingNoise(), 1);
   StaticModel model(design);
   constexpr std::size_t kFolds = 3;
   constexpr double kDegrees = 4;
   const std::vector<Explaining> all = {explaining({0, 1}, {true, true})};
-  const HeldOutScores scores(design, noise(), model, all, kFolds, kDegrees);
+  const HeldOutScores scores(design, drawn::wanderingNoise(), model, all, kFolds, kDegrees);
   double total = 0, loss = 0;
   for (std::size_t c = 0; c < design.cycles.size(); ++c) {
-    Dense dense(design, noise(), model, {0, 1});
+    Dense dense(design, drawn::wanderingNoise(), model, {0, 1});
     dense.gather(kFolds, c % kFolds);
     const double variance = dense.bestVariance();
     EXPECT_GT(variance, 0) << "the example shows the loop";
@@ -188,7 +173,7 @@ TEST(HeldOutScores, EqualADenseComputation) {
   EXPECT_NEAR(scores.scores()[0].total, total, 1e-6 * loss);
   EXPECT_NEAR(scores.loss(), loss, 1e-6 * loss);
   EXPECT_GT(scores.expectedLoss(), 6 * 8) << "the static curves are not certain";
-  Dense whole(design, noise(), model, {0});
+  Dense whole(design, drawn::wanderingNoise(), model, {0});
   whole.gather(kFolds, kFolds);
   const Eigen::Index last = model.size();
   const double information =
@@ -201,16 +186,16 @@ TEST(HeldOutScores, EqualADenseComputation) {
 // The form with the largest marginal likelihood counts; one that acts on bent surfaces alone is 0 on flat
 // ones.
 TEST(HeldOutScores, ChooseTheFormThatActs) {
-  CycleDesign design = drawn::design({16, 20, 2, 14, {loop, turning}});
+  CycleDesign design = drawn::design({16, 20, 2, 14, {drawn::loop, drawn::turning}});
   for (CycleBins& bins : design.cycles) {
     if (bins.curvature_class == 1) bins.reading += 2e-3 * bins.columns.col(1);
   }
-  drawn::addNoise(design, noise(), 2);
+  drawn::addNoise(design, drawn::wanderingNoise(), 2);
   Explaining forms = explaining({0}, {true});
   forms.forms.push_back({{1}, {true}});
   forms.forms.push_back({{1}, {true}, true});
   const StaticModel model(design);
-  const HeldOutScores scores(design, noise(), model, {forms}, 4, 4);
+  const HeldOutScores scores(design, drawn::wanderingNoise(), model, {forms}, 4, 4);
   EXPECT_EQ(scores.scores()[0].form, 2u);
   EXPECT_NEAR(scores.scores()[0].fit.coefficients[0], 2e-3, 1e-4);
   EXPECT_GT(scores.scores()[0].total, 50);
@@ -227,10 +212,10 @@ TEST(HeldOutScores, OfNoiseAloneHaveUniformProbabilities) {
   int to_5 = 0, to_10 = 0, above = 0;
   double above_in_null = 0;
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-    CycleDesign design = drawn::design({15, 12, 1, 14, {loop, fading, turning}});
-    drawn::addNoise(design, noise(), seed);
+    CycleDesign design = drawn::design({15, 12, 1, 14, {drawn::loop, fadingSoon, drawn::turning}});
+    drawn::addNoise(design, drawn::wanderingNoise(), seed);
     const StaticModel model(design);
-    const HeldOutScores scores(design, noise(), model, all, 5, 4);
+    const HeldOutScores scores(design, drawn::wanderingNoise(), model, all, 5, 4);
     const NullScores null = scores.nullScores(kDraws, seed, 1);
     double best = -INFINITY;
     for (const HeldOutScore& score : scores.scores()) best = std::max(best, score.total);
@@ -257,10 +242,10 @@ TEST(HeldOutScores, ExpectTheMeanLossOfRecordingsWithoutAnEffect) {
   double loss = 0, expected = 0;
   constexpr int kRecordings = 100;
   for (std::uint64_t seed = 1; seed <= kRecordings; ++seed) {
-    CycleDesign design = drawn::design({15, 12, 1, 14, {loop}});
-    drawn::addNoise(design, noise(), seed);
+    CycleDesign design = drawn::design({15, 12, 1, 14, {drawn::loop}});
+    drawn::addNoise(design, drawn::wanderingNoise(), seed);
     const std::vector<Explaining> all = {explaining({0}, {true})};
-    const HeldOutScores scores(design, noise(), StaticModel(design), all, 5, 4);
+    const HeldOutScores scores(design, drawn::wanderingNoise(), StaticModel(design), all, 5, 4);
     loss += scores.loss() / kRecordings;
     expected = scores.expectedLoss();
   }
@@ -270,16 +255,16 @@ TEST(HeldOutScores, ExpectTheMeanLossOfRecordingsWithoutAnEffect) {
 
 // Cycle 4 has two bins beyond the pressures of all other cycles. What they read has no part in its score.
 TEST(HeldOutScores, LeaveOutPressuresThatOtherFoldsDoNotCover) {
-  CycleDesign design = drawn::design({15, 12, 1, 14, {loop}});
+  CycleDesign design = drawn::design({15, 12, 1, 14, {drawn::loop}});
   drawn::addColumn(design, 0, 1e-3);
-  drawn::addNoise(design, noise(), 1);
+  drawn::addNoise(design, drawn::wanderingNoise(), 1);
   const std::vector<Explaining> all = {explaining({0}, {true})};
   const StaticModel model(design);
   CycleBins& high = design.cycles[4];
   for (const Eigen::Index b : {5, 6}) high.pressure[b] = 1.1 * drawn::kHighest;
-  const HeldOutScores before(design, noise(), model, all, 5, 4);
+  const HeldOutScores before(design, drawn::wanderingNoise(), model, all, 5, 4);
   for (const Eigen::Index b : {5, 6}) high.reading[b] += 0.1;
-  const HeldOutScores after(design, noise(), model, all, 5, 4);
+  const HeldOutScores after(design, drawn::wanderingNoise(), model, all, 5, 4);
   EXPECT_EQ(after.scores()[0].nats[4], before.scores()[0].nats[4]);
   EXPECT_EQ(after.density(4, 0), before.density(4, 0));
   EXPECT_NE(after.scores()[0].nats[5], before.scores()[0].nats[5]) << "it is fitted to cycle 4";

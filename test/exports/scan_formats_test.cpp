@@ -9,6 +9,7 @@
 
 #include "exports/scan_examples.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "support/content_of.h"
 #include "support/line_format.h"
 #include "support/pty.h"
 
@@ -59,8 +60,7 @@ TEST(ScanFormats, EachHasANameOfItsOwnAndASummaryOfOneLine) {
 TEST(ScanFormats, AFormatFromOutsideWritesWhatItIsGiven) {
   const test_support::TemporaryFolder folder;
   writeTwoScans(test_support::lineFormat(), folder.path("a.txt"), true);
-  std::ifstream file(folder.path("a.txt"));
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const std::string text = test_support::contentOf(folder.path("a.txt"));
   EXPECT_EQ(text, "# 2_cylinder.bag\n0.050000 0 1 2 300 17 4095\n0.150000 0 1 2 300 17 4095\n");
 }
 

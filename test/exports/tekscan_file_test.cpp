@@ -7,6 +7,7 @@
 
 #include "exports/scan_examples.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "support/content_of.h"
 #include "support/holds.h"
 #include "support/program_output.h"
 #include "support/pty.h"
@@ -25,8 +26,7 @@ class TekscanFile : public testing::Test {
     file.begin(subject);
     for (const fsr::exports::ScanRecord& scan : scans) file.add(scan);
     file.finish();
-    std::ifstream in(path_, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
+    return test_support::contentOf(path_);
   }
 
   test_support::TemporaryFolder folder_;

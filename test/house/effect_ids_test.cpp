@@ -10,6 +10,7 @@
 #include <set>
 
 #include "simulation/effects/effect_library.h"
+#include "support/content_of.h"
 #include "support/source_dir.h"
 
 namespace {
@@ -17,8 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string codeOf(const fs::path& path) {
-  std::ifstream file(path);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const std::string text = test_support::contentOf(path);
   return std::regex_replace(text, std::regex("//[^\n]*"), "");
 }
 

@@ -17,6 +17,8 @@ using fsr::mesh::Point;
 /// A point of a surface with parameters u and v [m].
 using Surface = std::function<Point(double u, double v)>;
 
+constexpr double kRadius = 0.05;  // of most examples [m]
+
 /// Cylinder of a radius [m] around the z axis; u goes around it, v along it. u = v = 0 is (radius, 0, 0).
 inline Surface cylinder(double radius) {
   return [radius](double u, double v) {

@@ -13,15 +13,16 @@
 #include "matrix/surface_file.h"
 #include "mesh/example_meshes.h"
 #include "mesh/mesh_surface.h"
+#include "support/content_of.h"
 #include "support/folder_test.h"
 #include "support/program_output.h"
 
 namespace fsr::mesh {
 namespace {
 
+using test_support::kRadius;
 using test_support::triangles;
 
-constexpr double kRadius = 0.05;
 constexpr double kInch = 0.0254;
 
 class MeshFile : public test_support::FolderTest {
@@ -88,8 +89,7 @@ TEST_F(MeshFile, RefusesWhatIsNoMesh) {
 TEST_F(MeshFile, RefusesOrReadsATruncatedFile) {
   const std::vector<Point> corners = triangles(test_support::cylinder(kRadius), {0.005, 0.005});
   test_support::writeBinaryStl(path("whole.stl"), corners, 0.001);
-  std::ifstream in(path("whole.stl"), std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  const std::string bytes = test_support::contentOf(path("whole.stl"));
   for (const std::size_t size :
        {std::size_t{10}, std::size_t{83}, std::size_t{84}, bytes.size() / 2, bytes.size() - 1})
     EXPECT_NE(refusal(written("cut.stl", bytes.substr(0, size))), "accepted") << size;
@@ -135,9 +135,9 @@ TEST_F(MeshFile, TheSurfaceFilePlacesTheFrameOfTheMatrix) {
     ASSERT_TRUE(read);
     EXPECT_EQ(read->file, folder_.parent_path().string() + "/a.stl");
     EXPECT_EQ(read->unit, 0.001);
-    const auto& [x, y, z, w] = read->matrix.quaternion;
-    const auto& [px, py, pz] = read->matrix.position;
     const auto inMatrixFrame = [&](std::size_t taxel) {
+      const auto& [x, y, z, w] = read->matrix.quaternion;
+      const auto& [px, py, pz] = read->matrix.position;
       const Point& on_mesh = made.sheet.taxels[taxel].fit.frame.origin;
       return Point(Eigen::Quaterniond(w, x, y, z).conjugate() * (on_mesh - Point(px, py, pz)));
     };

@@ -15,6 +15,7 @@
 namespace fsr::mesh {
 namespace {
 
+using test_support::kRadius;
 using test_support::MeshOptions;
 using test_support::triangles;
 
@@ -157,8 +158,6 @@ std::string refusal(const Mesh& mesh, const SheetPlace& where) {
 void expectRefused(const std::string& sentence, const std::string& part) {
   EXPECT_NE(sentence.find(part), std::string::npos) << sentence;
 }
-
-const double kRadius = 0.05;
 
 TEST(MeshSurface, RefusesAPlaceBesideTheMesh) {
   const Mesh mesh = weld(triangles(test_support::cylinder(kRadius)));

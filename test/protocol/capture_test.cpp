@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "support/content_of.h"
 #include "support/file_size_limit.h"
 #include "support/holds.h"
 #include "support/pty.h"
@@ -66,8 +67,7 @@ TEST_F(Capture, ReturnsTheBytesAndTimesThatWereWritten) {
 
 TEST_F(Capture, HasTheDocumentedBytes) {
   write(path_, {{0x0102030405060708, {0xAA, 0xBB}}});
-  std::ifstream file(path_, std::ios::binary);
-  const std::string bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  const std::string bytes = test_support::contentOf(path_);
   const std::string expected(
       "FSRCAP01"
       "\x00\xC2\x01\x00\x00\x00\x00\x00"

@@ -25,7 +25,7 @@ std::int64_t noTime() {
 }
 
 // The message of the exception that the constructor throws; empty where it does not throw.
-std::string complaintOf(const std::string& path) {
+std::string complaintAt(const std::string& path) {
   try {
     fsr::protocol::SerialPort port(path, kBaud, noTime);
     return "";
@@ -94,13 +94,13 @@ TEST_F(SerialPort, HasNoBaudForAPseudoTerminal) {
 
 TEST_F(SerialPort, RefusesASecondReaderAndSaysHowToFindTheFirst) {
   const fsr::protocol::SerialPort first(link_, kBaud, noTime);
-  const std::string complaint = complaintOf(link_);
+  const std::string complaint = complaintAt(link_);
   EXPECT_TRUE(contains(complaint, "another program has " + link_ + " open")) << complaint;
   EXPECT_TRUE(contains(complaint, "fuser -v " + link_)) << complaint;
 }
 
 TEST_F(SerialPort, NamesAMissingPortAndWhatToSet) {
-  const std::string complaint = complaintOf(folder_.path("ttyNone"));
+  const std::string complaint = complaintAt(folder_.path("ttyNone"));
   EXPECT_TRUE(contains(complaint, "there is no serial port " + folder_.path("ttyNone"))) << complaint;
   EXPECT_TRUE(contains(complaint, "plug the board in")) << complaint;
   EXPECT_TRUE(contains(complaint, "No such file or directory")) << complaint;
@@ -108,8 +108,8 @@ TEST_F(SerialPort, NamesAMissingPortAndWhatToSet) {
 
 TEST_F(SerialPort, RefusesAFileThatIsNotAPort) {
   std::ofstream(folder_.path("notes.txt")) << "no port";
-  EXPECT_TRUE(contains(complaintOf(folder_.path("notes.txt")), "notes.txt is not a serial port"));
-  EXPECT_TRUE(contains(complaintOf(folder_.path()), "is not a serial port"));
+  EXPECT_TRUE(contains(complaintAt(folder_.path("notes.txt")), "notes.txt is not a serial port"));
+  EXPECT_TRUE(contains(complaintAt(folder_.path()), "is not a serial port"));
 }
 
 TEST_F(SerialPort, NamesTheGroupAndTheCommandWhereThePermissionIsMissing) {

@@ -24,13 +24,13 @@ DecoderOptions options(bool transducer = false, std::uint32_t tick = 1000) {
 }
 
 // A decoder and the packets that it delivered.
-struct Bench {
+struct TextBench {
   test_support::PacketRecorder recorder;
   fsr::protocol::TextDecoder decoder;
 
-  explicit Bench(const DecoderOptions& options = ::options()) : decoder(recorder, options) {}
+  explicit TextBench(const DecoderOptions& options = ::options()) : decoder(recorder, options) {}
 
-  Bench& feed(const std::string& text) {
+  TextBench& feed(const std::string& text) {
     const std::vector<std::uint8_t> bytes(text.begin(), text.end());
     decoder.feed(bytes.data(), bytes.size());
     return *this;
@@ -41,24 +41,24 @@ struct Bench {
 };
 
 // The packets of lines that follow a first one, which is always dropped.
-Lines linesOf(const std::string& text, const DecoderOptions& options = ::options()) {
-  Bench bench(options);
+Lines linesOfText(const std::string& text, const DecoderOptions& options = ::options()) {
+  TextBench bench(options);
   bench.feed("\n" + text).decoder.finish();
   return bench.lines();
 }
 
-std::string scan(int sequence, std::uint32_t time, const std::string& counts) {
+std::string scanLine(int sequence, std::uint32_t time, const std::string& counts) {
   return "scan #" + std::to_string(sequence) + " @" + std::to_string(time) + " 1x3 full 1023 took 0 counts " +
          counts;
 }
 
-const Lines kOneScan = {scan(1, 12000, "0 512 1023")};
+const Lines kOneScan = {scanLine(1, 12000, "0 512 1023")};
 
 TEST(TextDecoder, ReadsTimeAndCountsOfALine) {
-  EXPECT_EQ(linesOf("12,0,512,1023\n"), kOneScan);
-  EXPECT_EQ(linesOf("12,0,512,1023\r\n"), kOneScan);
+  EXPECT_EQ(linesOfText("12,0,512,1023\n"), kOneScan);
+  EXPECT_EQ(linesOfText("12,0,512,1023\r\n"), kOneScan);
   const Lines matrix = {"scan #1 @7 2x2 full 4095 took 0 counts 1 2 3 4095"};
-  EXPECT_EQ(linesOf("7,1,2,3,4095\n", {{2, 2}, 4095, 1, false}), matrix);
+  EXPECT_EQ(linesOfText("7,1,2,3,4095\n", {{2, 2}, 4095, 1, false}), matrix);
 }
 
 TEST(TextDecoder, ReadsEverySeparatorWithBlanksAroundItAndOneBehindTheLastNumber) {
@@ -66,14 +66,14 @@ TEST(TextDecoder, ReadsEverySeparatorWithBlanksAroundItAndOneBehindTheLastNumber
        {"12;0;512;1023", "12\t0\t512\t1023", "12 0 512 1023", "12, 0, 512, 1023", "  12 ;\t0 ; 512 ; 1023 ",
         "12   0  512 1023 ", "12,0,512,1023,", "12,0,512,1023, ", "12\t0\t512\t1023\t",
         "12\t   0\t 512\t1023", "0012,000,0512,1023"}) {
-    EXPECT_EQ(linesOf(line + "\r\n"), kOneScan) << line;
+    EXPECT_EQ(linesOfText(line + "\r\n"), kOneScan) << line;
   }
 }
 
 TEST(TextDecoder, RefusesALineWithTwoSeparatorsOrAnEmptyField) {
   for (const std::string line : {"12,0;512,1023", "12,0 512,1023", "12 0\t512\t1023", "12,,0,512,1023",
                                  ",12,0,512,1023", "12,0,512,1023,,"}) {
-    Bench bench;
+    TextBench bench;
     bench.feed("\n" + line + "\n");
     EXPECT_EQ(bench.lines(), Lines{}) << line;
     EXPECT_EQ(bench.causes().not_numbers, 1U) << line;
@@ -81,7 +81,7 @@ TEST(TextDecoder, RefusesALineWithTwoSeparatorsOrAnEmptyField) {
 }
 
 TEST(TextDecoder, PassesOverHeadersCommentsAndEmptyLines) {
-  Bench bench;
+  TextBench bench;
   bench.feed(
       "\ntime,a,b,c\r\n\"time\";\"r0c0\"\n# 12,0,512,1023\n# 20 \xC2\xB5s\n\r\n\nReady.\n12,0,512,1023\n");
   EXPECT_EQ(bench.lines(), kOneScan);
@@ -90,7 +90,7 @@ TEST(TextDecoder, PassesOverHeadersCommentsAndEmptyLines) {
 }
 
 TEST(TextDecoder, DropsTheFirstLineOfAStreamBecauseItsStartMayBeMissing) {
-  Bench bench;
+  TextBench bench;
   bench.feed("2,0,512,1023\n12,0,512,1023\n");
   EXPECT_EQ(bench.lines(), kOneScan);
   EXPECT_EQ(bench.causes().cut, 1U);
@@ -99,18 +99,18 @@ TEST(TextDecoder, DropsTheFirstLineOfAStreamBecauseItsStartMayBeMissing) {
 }
 
 TEST(TextDecoder, DropsTheLastLineOfAStreamBecauseItsEndMayBeMissing) {
-  Bench bench;
+  TextBench bench;
   bench.feed("\n12,0,512,102").decoder.finish();
   bench.feed("3\n13,1,2,3\n");
-  EXPECT_EQ(bench.lines(), Lines{scan(1, 13000, "1 2 3")});
+  EXPECT_EQ(bench.lines(), Lines{scanLine(1, 13000, "1 2 3")});
   EXPECT_EQ(bench.causes().cut, 3U) << "the first, the last, and the first of the next stream";
 }
 
 TEST(TextDecoder, CountsDamageByItsCauseAndReadsTheNextLine) {
-  Bench bench;
+  TextBench bench;
   bench.feed("\n1,2,3,4\n" + std::string(4000, '1') + "\n" + "2,0,5\xFF,1\n" + "3,0,0x12,1\n" + "4,0,-5,1\n" +
              "5.5,0,5,1\n" + "6,0,5\n" + "7,0,5,1,8\n" + "8,0,1024,2000\n" + "9,2,3,4\n");
-  EXPECT_EQ(bench.lines(), (Lines{scan(1, 1000, "2 3 4"), scan(10, 9000, "2 3 4")}));
+  EXPECT_EQ(bench.lines(), (Lines{scanLine(1, 1000, "2 3 4"), scanLine(10, 9000, "2 3 4")}));
   EXPECT_EQ(bench.causes().cut, 1U);
   EXPECT_EQ(bench.causes().too_long, 1U);
   EXPECT_EQ(bench.causes().not_ascii, 1U);
@@ -124,7 +124,7 @@ TEST(TextDecoder, CountsDamageByItsCauseAndReadsTheNextLine) {
 }
 
 TEST(TextDecoder, SkipsBytesWithoutANewlineWhileTheyCome) {
-  Bench bench;
+  TextBench bench;
   bench.feed("\n" + std::string(200, '\x80'));
   EXPECT_EQ(bench.counts().skipped_bytes, 201U);
   EXPECT_EQ(bench.causes().not_ascii, 1U);
@@ -132,48 +132,49 @@ TEST(TextDecoder, SkipsBytesWithoutANewlineWhileTheyCome) {
 
 // So that a recording shows them, as it shows packets of the wire format that were lost.
 TEST(TextDecoder, NumbersTheScansSoThatDamagedLinesLeaveAGap) {
-  Bench bench;
+  TextBench bench;
   bench.feed("\n1,0,0,0\n2,0,0\n3,x,0,0\n4,0,0,0\n5,0,0,0\n");
-  EXPECT_EQ(bench.lines(), (Lines{scan(1, 1000, "0 0 0"), scan(4, 4000, "0 0 0"), scan(5, 5000, "0 0 0")}));
+  EXPECT_EQ(bench.lines(),
+            (Lines{scanLine(1, 1000, "0 0 0"), scanLine(4, 4000, "0 0 0"), scanLine(5, 5000, "0 0 0")}));
   EXPECT_EQ(bench.counts().of(PacketType::kScan).gaps, 1U);
   EXPECT_EQ(bench.counts().of(PacketType::kScan).lost, 2U);
   EXPECT_EQ(bench.counts().of(PacketType::kScan).packets, 3U);
 }
 
 TEST(TextDecoder, CountsNoGapAcrossTheEndOfAStream) {
-  Bench bench;
+  TextBench bench;
   bench.feed("\n1,0,0,0\nx\n").decoder.finish();
   bench.feed("0\n1,0,0,0\n");
-  EXPECT_EQ(bench.lines().back(), scan(2, 1000, "0 0 0"));
+  EXPECT_EQ(bench.lines().back(), scanLine(2, 1000, "0 0 0"));
   EXPECT_EQ(bench.counts().of(PacketType::kScan).gaps, 0U);
 }
 
 // 2^32 ms = 49.7 days; 4294967295 ms are 4294966296 us modulo 2^32.
 TEST(TextDecoder, ContinuesTheDeviceTimeWhereMillisecondsOrMicrosecondsWrap) {
-  EXPECT_EQ(linesOf("4294967295,0,0,0\n0,0,0,0\n1,0,0,0\n"),
-            (Lines{scan(1, 4294966296, "0 0 0"), scan(2, 0, "0 0 0"), scan(3, 1000, "0 0 0")}));
-  EXPECT_EQ(linesOf("4294967295,0,0,0\n0,0,0,0\n", options(false, 1)),
-            (Lines{scan(1, 4294967295, "0 0 0"), scan(2, 0, "0 0 0")}));
-  EXPECT_EQ(linesOf("4294967297,0,0,0\n", options(false, 1)), Lines{scan(1, 1, "0 0 0")})
+  EXPECT_EQ(linesOfText("4294967295,0,0,0\n0,0,0,0\n1,0,0,0\n"),
+            (Lines{scanLine(1, 4294966296, "0 0 0"), scanLine(2, 0, "0 0 0"), scanLine(3, 1000, "0 0 0")}));
+  EXPECT_EQ(linesOfText("4294967295,0,0,0\n0,0,0,0\n", options(false, 1)),
+            (Lines{scanLine(1, 4294967295, "0 0 0"), scanLine(2, 0, "0 0 0")}));
+  EXPECT_EQ(linesOfText("4294967297,0,0,0\n", options(false, 1)), Lines{scanLine(1, 1, "0 0 0")})
       << "a counter of 64 bits";
 }
 
 TEST(TextDecoder, ReadsTheTransducerBehindTheCounts) {
-  const Lines expected = {scan(1, 12000, "1 2 3"), "transducer #1 @12000 -70000"};
-  EXPECT_EQ(linesOf("12,1,2,3,-70000\n", options(true)), expected);
-  EXPECT_EQ(linesOf("12,1,2,3\n12,1,2,3,2147483648\n", options(true)), Lines{});
+  const Lines expected = {scanLine(1, 12000, "1 2 3"), "transducer #1 @12000 -70000"};
+  EXPECT_EQ(linesOfText("12,1,2,3,-70000\n", options(true)), expected);
+  EXPECT_EQ(linesOfText("12,1,2,3\n12,1,2,3,2147483648\n", options(true)), Lines{});
 }
 
 // docs/text_format.md: without sign, except for a transducer's reading.
 TEST(TextDecoder, RefusesASignBeforeAZeroUnlessTheTransducerReadsIt) {
   for (const std::string line : {"-0,0,512,1023", "12,-0,512,1023", "12,0,512,-0", "12,+0,512,1023"}) {
-    Bench bench;
+    TextBench bench;
     bench.feed("\n" + line + "\n");
     EXPECT_EQ(bench.lines(), Lines{}) << line;
     EXPECT_EQ(bench.causes().not_numbers, 1U) << line;
   }
-  const Lines expected = {scan(1, 12000, "1 2 3"), "transducer #1 @12000 0"};
-  EXPECT_EQ(linesOf("12,1,2,3,-0\n", options(true)), expected);
+  const Lines expected = {scanLine(1, 12000, "1 2 3"), "transducer #1 @12000 0"};
+  EXPECT_EQ(linesOfText("12,1,2,3,-0\n", options(true)), expected);
 }
 
 TEST(TextDecoder, SaysThatItNeedsTheMatrix) {
@@ -185,12 +186,12 @@ TEST(TextDecoder, SaysThatItNeedsTheMatrix) {
 }
 
 const std::string kStream = "time,a,b,c\r\n12,0,512,1023\r\n13,9,8,7\r\n14,100,200,300\r\n15,5,5,5\r\n";
-const Lines kFour = {scan(1, 12000, "0 512 1023"), scan(2, 13000, "9 8 7"), scan(3, 14000, "100 200 300"),
-                     scan(4, 15000, "5 5 5")};
+const Lines kFour = {scanLine(1, 12000, "0 512 1023"), scanLine(2, 13000, "9 8 7"),
+                     scanLine(3, 14000, "100 200 300"), scanLine(4, 15000, "5 5 5")};
 
 TEST(TextDecoder, ReadsTheSameScansInChunksOfAnySize) {
   for (std::size_t chunk = 1; chunk <= kStream.size(); ++chunk) {
-    Bench bench;
+    TextBench bench;
     for (std::size_t at = 0; at < kStream.size(); at += chunk) bench.feed(kStream.substr(at, chunk));
     ASSERT_EQ(bench.lines(), kFour) << "chunks of " << chunk;
   }
@@ -216,7 +217,7 @@ TEST(TextDecoder, LosesTheNextLineAtMostWhereAByteIsLostChangedOrInserted) {
       damaged.push_back(kStream.substr(0, at) + inserted + kStream.substr(at));
     }
     for (const std::string& stream : damaged) {
-      Bench bench;
+      TextBench bench;
       const Lines found = contents(bench.feed(stream).lines());
       ASSERT_GE(found.size(), 2U) << stream;
       EXPECT_EQ(found.front(), contents(kFour).front()) << stream;
@@ -227,8 +228,8 @@ TEST(TextDecoder, LosesTheNextLineAtMostWhereAByteIsLostChangedOrInserted) {
 
 // docs/text_format.md says so.
 TEST(TextDecoder, CannotTellAFlippedDigitNorTwoHalvesOfLines) {
-  EXPECT_EQ(linesOf("12,0,513,1023\n"), Lines{scan(1, 12000, "0 513 1023")}) << "printed as 512";
-  EXPECT_EQ(linesOf("12,0,8,7\n"), Lines{scan(1, 12000, "0 8 7")}) << "of 12,0,512,1023 and 13,9,8,7";
+  EXPECT_EQ(linesOfText("12,0,513,1023\n"), Lines{scanLine(1, 12000, "0 513 1023")}) << "printed as 512";
+  EXPECT_EQ(linesOfText("12,0,8,7\n"), Lines{scanLine(1, 12000, "0 8 7")}) << "of 12,0,512,1023 and 13,9,8,7";
 }
 
 TEST(TextDecoder, SurvivesAnyBytesInChunksOfAnySize) {
@@ -239,7 +240,7 @@ TEST(TextDecoder, SurvivesAnyBytesInChunksOfAnySize) {
     for (int i = 0; i < 3000; ++i) {
       text += random() % 50 == 0 ? static_cast<char>(random() % 256) : likely[random() % likely.size()];
     }
-    Bench whole, parts;
+    TextBench whole, parts;
     whole.feed(text).decoder.finish();
     for (std::size_t at = 0; at < text.size();) {
       const std::size_t size = 1 + random() % 40;

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "protocol/text_decoder.h"
+#include "support/content_of.h"
 #include "support/link_rate.h"
 #include "support/packet_recorder.h"
 #include "support/program_output.h"
@@ -16,8 +17,7 @@
 // Compares docs/text_format.md and its example sketch with the decoder.
 namespace {
 
-const std::string kSource = test_support::sourceDir();
-const std::string kSketch = kSource + "/docs/examples/text_board/text_board.ino";
+const std::string kSketch = test_support::sourceDir() + "/docs/examples/text_board/text_board.ino";
 
 // What the sketch uses of the Arduino library. A taxel reads 100 times its row plus its column, where its row
 // alone is driven; the program prints three scans.
@@ -77,8 +77,7 @@ TEST(TextFormatDocument, ShowsASketchWhoseLinesTheDriverReadsWithItsDefaults) {
 }
 
 std::string document() {
-  std::ifstream file(kSource + "/docs/text_format.md");
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  return test_support::contentOf(test_support::sourceDir() + "/docs/text_format.md");
 }
 
 // The longest line: ten digits of time, four digits and a comma for each count, and "\r\n".

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "fsr_pressure_map/protocol/wire.h"
+#include "support/content_of.h"
 #include "support/link_rate.h"
 #include "support/program_output.h"
 #include "support/pty.h"
@@ -21,8 +22,7 @@ namespace {
 const std::string kSource = test_support::sourceDir();
 
 std::string document(const std::string& name) {
-  std::ifstream file(kSource + "/docs/" + name);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  return test_support::contentOf(kSource + "/docs/" + name);
 }
 
 // Text between the first `start` behind `heading` and the next `end`.
@@ -48,7 +48,7 @@ TEST(WireFormatDocument, ShowsTheBytesThatTheEncoderMakes) {
   EXPECT_EQ(shown, std::vector<unsigned>(packet.begin(), packet.begin() + size));
 }
 
-struct Link {
+struct LinkBudget {
   std::string name;
   double bytes_per_second;
 };
@@ -71,12 +71,12 @@ TEST(BoardsDocument, ShowsAProgramThatPrintsTheExampleWhereBothFilesAreCopied) {
 }
 
 TEST(WireFormatDocument, ShowsTheScanRatesThatTheFormulaGives) {
-  const std::vector<Link> links = {{"115200 baud", test_support::serialBytesPerSecond(115200)},
-                                   {"230400 baud", test_support::serialBytesPerSecond(230400)},
-                                   {"921600 baud", test_support::serialBytesPerSecond(921600)},
-                                   {"USB full speed", test_support::kUsbFullSpeedBytesPerSecond}};
+  const std::vector<LinkBudget> links = {{"115200 baud", test_support::serialBytesPerSecond(115200)},
+                                         {"230400 baud", test_support::serialBytesPerSecond(230400)},
+                                         {"921600 baud", test_support::serialBytesPerSecond(921600)},
+                                         {"USB full speed", test_support::kUsbFullSpeedBytesPerSecond}};
   std::ostringstream expected;
-  for (const Link& link : links) {
+  for (const LinkBudget& link : links) {
     expected << "| " << link.name << " | "
              << std::floor(test_support::scanRate(link.bytes_per_second, {7, 10})) << " | "
              << std::floor(test_support::scanRate(link.bytes_per_second, {16, 10})) << " |\n";

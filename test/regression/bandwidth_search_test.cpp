@@ -10,14 +10,14 @@
 namespace fsr::regression {
 namespace {
 
-constexpr std::uint16_t kFullScale = 1023;
+constexpr std::uint16_t kTenBits = 1023;
 
 // Readings with scatter [counts] of a curve with waves a hundred codes long.
 CodeSamples wavyCurve(std::size_t number, double scatter, unsigned seed) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal(0.0, scatter);
   CodeSamples samples;
-  samples.full_scale = kFullScale;
+  samples.full_scale = kTenBits;
   for (std::size_t i = 0; i < number; ++i) {
     const double place = 100 + static_cast<double>(random() % 800);
     const double reading = std::clamp(std::round(place + normal(random)), 0.0, 1023.0);
@@ -43,7 +43,7 @@ std::vector<CodeStatistics> sumsOf(const std::vector<CodeSamples>& sections) {
 double plainSquares(const std::vector<CodeSamples>& sections, std::size_t tested, std::size_t left_out,
                     double bandwidth) {
   CodeSamples training;
-  training.full_scale = kFullScale;
+  training.full_scale = kTenBits;
   for (std::size_t k = 0; k < sections.size(); ++k) {
     if (k != tested && k != left_out) training.append(sections[k]);
   }
@@ -57,7 +57,7 @@ double plainSquares(const std::vector<CodeSamples>& sections, std::size_t tested
 
 TEST(BandwidthErrors, AreThoseOfModelsTrainedWithoutBothSections) {
   const auto sections = sectionsOf(3);
-  const BandwidthErrors errors(sumsOf(sections), kFullScale, {}, {0.01, 0.1});
+  const BandwidthErrors errors(sumsOf(sections), kTenBits, {}, {0.01, 0.1});
   for (const std::size_t g : {0, 1}) {
     double whole = 0, without_second = 0;
     for (std::size_t k = 0; k < 4; ++k) {
@@ -71,7 +71,7 @@ TEST(BandwidthErrors, AreThoseOfModelsTrainedWithoutBothSections) {
 
 TEST(BandwidthErrors, ChooseAWiderBandwidthForMoreScatter) {
   const auto best = [](double scatter) {
-    return BandwidthErrors(sumsOf(sectionsOf(scatter)), kFullScale, {}, bandwidthGrid()).best();
+    return BandwidthErrors(sumsOf(sectionsOf(scatter)), kTenBits, {}, bandwidthGrid()).best();
   };
   EXPECT_LT(best(0.5), best(12));
   EXPECT_GT(best(12), bandwidthGrid().front());
@@ -80,9 +80,9 @@ TEST(BandwidthErrors, ChooseAWiderBandwidthForMoreScatter) {
 
 TEST(BandwidthErrors, TheChoiceForASectionDoesNotUseIt) {
   auto sections = sectionsOf(3);
-  const BandwidthErrors before(sumsOf(sections), kFullScale, {}, bandwidthGrid());
+  const BandwidthErrors before(sumsOf(sections), kTenBits, {}, bandwidthGrid());
   for (FixedPressure& pressure : sections[2].pressure) pressure = toFixed(1e6) - pressure;
-  const BandwidthErrors after(sumsOf(sections), kFullScale, {}, bandwidthGrid());
+  const BandwidthErrors after(sumsOf(sections), kTenBits, {}, bandwidthGrid());
   for (std::size_t g = 0; g < before.grid().size(); ++g) {
     EXPECT_EQ(before.squares(g, 2), after.squares(g, 2));
     EXPECT_NE(before.squares(g), after.squares(g));
@@ -90,8 +90,8 @@ TEST(BandwidthErrors, TheChoiceForASectionDoesNotUseIt) {
 }
 
 TEST(BandwidthErrors, OfTwoTaxelsAreAdded) {
-  BandwidthErrors both(sumsOf(sectionsOf(3)), kFullScale, {}, {0.01, 0.1});
-  const BandwidthErrors other(sumsOf(sectionsOf(9)), kFullScale, {}, {0.01, 0.1});
+  BandwidthErrors both(sumsOf(sectionsOf(3)), kTenBits, {}, {0.01, 0.1});
+  const BandwidthErrors other(sumsOf(sectionsOf(9)), kTenBits, {}, {0.01, 0.1});
   const double before = both.squares(1, 0);
   both.add(other);
   EXPECT_EQ(both.squares(1, 0), before + other.squares(1, 0));
@@ -99,14 +99,14 @@ TEST(BandwidthErrors, OfTwoTaxelsAreAdded) {
 
 TEST(BandwidthErrors, ChooseThePapersBandwidthIfNothingCanBeHeldOut) {
   const auto sections = sumsOf({wavyCurve(50, 3, 1), wavyCurve(0, 3, 1)});
-  const BandwidthErrors errors(sections, kFullScale, {}, bandwidthGrid());
+  const BandwidthErrors errors(sections, kTenBits, {}, bandwidthGrid());
   EXPECT_EQ(errors.best(), kPaperBandwidth);
 }
 
 TEST(BandwidthErrors, RefuseWeightsOfPressureBins) {
   GrnnOptions options;
   options.weighting = SampleWeighting::kEachPressureBin;
-  EXPECT_THROW(BandwidthErrors(sumsOf(sectionsOf(3)), kFullScale, options, {0.1}), settings::InputError);
+  EXPECT_THROW(BandwidthErrors(sumsOf(sectionsOf(3)), kTenBits, options, {0.1}), settings::InputError);
 }
 
 }  // namespace

@@ -11,12 +11,10 @@
 namespace fsr::regression {
 namespace {
 
-constexpr std::uint16_t kFullScale = 4095;
-
 CodeSamples randomSamples(std::size_t number, unsigned seed) {
   std::mt19937 random(seed);
   CodeSamples samples;
-  samples.full_scale = kFullScale;
+  samples.full_scale = 4095;
   for (std::size_t i = 0; i < number; ++i) {
     const auto code = static_cast<std::uint16_t>(100 + random() % 800);
     samples.add(code, toFixed(100.0 * code + static_cast<double>(random() % 5000)));

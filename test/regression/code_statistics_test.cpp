@@ -7,14 +7,10 @@
 #include <random>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "regression/readings.h"
 
 namespace fsr::regression {
 namespace {
-
-struct Reading {
-  std::uint16_t code;
-  double pressure;
-};
 
 std::vector<Reading> randomReadings(std::size_t number, unsigned seed) {
   std::mt19937 random(seed);
@@ -24,12 +20,6 @@ std::vector<Reading> randomReadings(std::size_t number, unsigned seed) {
                static_cast<double>(random() % 1000000) * 0.62 - 1e3};
   }
   return readings;
-}
-
-CodeStatistics statisticsOf(const std::vector<Reading>& readings) {
-  CodeAccumulator accumulator(4095);
-  for (const Reading& reading : readings) accumulator.add(reading.code, toFixed(reading.pressure));
-  return accumulator.take();
 }
 
 TEST(CodeStatistics, ContainCountSumAndSquaresOfEachCode) {

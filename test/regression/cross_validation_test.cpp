@@ -8,23 +8,12 @@
 #include <random>
 
 #include "regression/grnn/grnn.h"
+#include "regression/readings.h"
 
 namespace fsr::regression {
 namespace {
 
-constexpr std::uint16_t kFullScale = 4095;
-
-struct Reading {
-  std::uint16_t code;
-  double pressure;  // [Pa]
-};
 using Section = std::vector<Reading>;
-
-CodeStatistics statisticsOf(const Section& section) {
-  CodeAccumulator accumulator(kFullScale);
-  for (const Reading& reading : section) accumulator.add(reading.code, toFixed(reading.pressure));
-  return accumulator.take();
-}
 
 // Readings on the line 150 Pa a count from code 100 to 3900, with errors from `error` [Pa].
 Section line(std::size_t number, std::mt19937& random, const std::function<double(int code)>& error) {

@@ -13,12 +13,12 @@ namespace fsr::regression {
 namespace {
 
 // A second, simple implementation: a resampled copy of the readings, and every cut tried at every node.
-struct Reading {
+struct BentReading {
   std::array<double, 2> input;  // code, curvature
   double pressure;              // [Pa]
 };
 struct Box {
-  std::vector<Reading> readings;
+  std::vector<BentReading> readings;
   std::array<double, 2> low, high;
 };
 struct Cut {
@@ -26,23 +26,23 @@ struct Cut {
   double at = 0;
 };
 
-double squaredErrors(const std::vector<Reading>& readings) {
+double squaredErrors(const std::vector<BentReading>& readings) {
   double mean = 0, sum = 0;
-  for (const Reading& reading : readings) mean += reading.pressure / static_cast<double>(readings.size());
-  for (const Reading& reading : readings) sum += (reading.pressure - mean) * (reading.pressure - mean);
+  for (const BentReading& reading : readings) mean += reading.pressure / static_cast<double>(readings.size());
+  for (const BentReading& reading : readings) sum += (reading.pressure - mean) * (reading.pressure - mean);
   return sum;
 }
 
-Cut bestOf(const std::vector<Reading>& readings, std::size_t input, std::size_t minimum_leaf) {
+Cut bestOf(const std::vector<BentReading>& readings, std::size_t input, std::size_t minimum_leaf) {
   std::vector<double> values;
-  for (const Reading& reading : readings) values.push_back(reading.input[input]);
+  for (const BentReading& reading : readings) values.push_back(reading.input[input]);
   std::sort(values.begin(), values.end());
   values.erase(std::unique(values.begin(), values.end()), values.end());
   Cut best;
   for (std::size_t i = 1; i < values.size(); ++i) {
     const double at = (values[i - 1] + values[i]) / 2;
-    std::vector<Reading> left, right;
-    for (const Reading& reading : readings) (reading.input[input] < at ? left : right).push_back(reading);
+    std::vector<BentReading> left, right;
+    for (const BentReading& reading : readings) (reading.input[input] < at ? left : right).push_back(reading);
     if (std::min(left.size(), right.size()) < minimum_leaf) continue;
     const double gain = squaredErrors(readings) - squaredErrors(left) - squaredErrors(right);
     if (gain > best.gain * (1 + 1e-9) + 1e-3) best = {gain, at};
@@ -51,8 +51,8 @@ Cut bestOf(const std::vector<Reading>& readings, std::size_t input, std::size_t 
 }
 
 // The readings that tree `tree` draws, from the documented stream over the sorted readings.
-std::vector<Reading> replica(const ForestData& data, std::uint64_t seed, std::uint64_t tree) {
-  std::vector<Reading> all(data.pressure.size());
+std::vector<BentReading> replica(const ForestData& data, std::uint64_t seed, std::uint64_t tree) {
+  std::vector<BentReading> all(data.pressure.size());
   std::size_t reading = 0, slot = 0;
   for (const ForestData::SizeClass& size_class : data.classes) {
     for (std::size_t i = 0; i < size_class.readings_each * size_class.entries; ++i, ++reading) {
@@ -64,7 +64,7 @@ std::vector<Reading> replica(const ForestData& data, std::uint64_t seed, std::ui
     slot += size_class.entries;
   }
   const statistics::RandomStream stream = statistics::randomStream(seed, "forest", tree);
-  std::vector<Reading> drawn;
+  std::vector<BentReading> drawn;
   for (std::size_t i = 0; i < all.size(); ++i) {
     std::uint64_t bits = stream.bits(i / 2);
     const bool last_of_odd = i + 1 == all.size() && i % 2 == 0;
@@ -95,7 +95,7 @@ std::vector<Box> plainTree(const ForestData& data, const ForestOptions& options,
     }
     Box left{{}, box.low, box.high}, right{{}, box.low, box.high};
     left.high[input] = right.low[input] = cut.at;
-    for (const Reading& reading : box.readings) {
+    for (const BentReading& reading : box.readings) {
       (reading.input[input] < cut.at ? left : right).readings.push_back(reading);
     }
     open.push_back(left);
@@ -138,7 +138,7 @@ void expectThePlainTree(bool on_curvature, const ForestOptions& options) {
                  curvature < box.high[1];
         });
         double mean = 0;
-        for (const Reading& reading : theirs->readings) mean += reading.pressure;
+        for (const BentReading& reading : theirs->readings) mean += reading.pressure;
         mean /= static_cast<double>(theirs->readings.size());
         ASSERT_NEAR(data.centre + data.unit * mine->pressure, mean, 1e-6) << code << " " << curvature;
         ASSERT_EQ(mine->readings, static_cast<double>(theirs->readings.size()));

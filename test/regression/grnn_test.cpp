@@ -7,20 +7,14 @@
 #include <random>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "regression/readings.h"
 
 namespace fsr::regression {
 namespace {
 
-struct Reading {
-  std::uint16_t code;
-  double pressure;  // [Pa]
-};
-
 CodeHistogram histogramOf(const std::vector<Reading>& readings, std::uint16_t full_scale) {
-  CodeAccumulator accumulator(full_scale);
-  for (const Reading& reading : readings) accumulator.add(reading.code, toFixed(reading.pressure));
   CodeHistogram histogram(full_scale);
-  histogram.add(accumulator.take());
+  histogram.add(statisticsOf(readings, full_scale));
   return histogram;
 }
 

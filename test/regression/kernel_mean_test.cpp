@@ -10,11 +10,11 @@
 #include <utility>
 
 #include "regression/grnn/gaussian_sums.h"
+#include "regression/readings.h"
 
 namespace fsr::regression {
 namespace {
 
-constexpr std::uint16_t kFullScale = 4095;
 constexpr double kTolerance = 1e-12;  // of the pressure range
 
 struct Sample {

@@ -2,14 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include "support/holds.h"
+
 namespace {
 
 using fsr::check::CheckResult;
 using fsr::check::Verdict;
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 std::string checkText(const CheckResult& result) {
   return fsr::report::checkText(result, {});
@@ -28,9 +26,9 @@ CheckResult example() {
 }
 
 TEST(CheckReport, HasARowForAllReadings) {
-  EXPECT_TRUE(
-      contains(checkText(example()),
-               "all             1000           4.0        3.0       -0.2          71.0         0.2\n"))
+  EXPECT_TRUE(test_support::holds(
+      checkText(example()),
+      {"all             1000           4.0        3.0       -0.2          71.0         0.2\n"}))
       << checkText(example());
 }
 
@@ -38,38 +36,38 @@ TEST(CheckReport, OfASurfaceWithoutReadingsHasDashes) {
   CheckResult result = example();
   result.map.surfaces.emplace_back();
   result.map.surfaces.back().name = "flat";
-  EXPECT_TRUE(
-      contains(checkText(result),
-               "flat               0             -          -          -             -           -\n"))
+  EXPECT_TRUE(test_support::holds(
+      checkText(result),
+      {"flat               0             -          -          -             -           -\n"}))
       << checkText(result);
-  EXPECT_FALSE(contains(checkText(result), "nan"));
+  EXPECT_FALSE(test_support::holds(checkText(result), {"nan"}));
 }
 
 TEST(CheckReport, SaysWhatTheMapIsGoodForAndNamesTheWorstBag) {
-  EXPECT_TRUE(contains(
+  EXPECT_TRUE(test_support::holds(
       checkText(example()),
-      "\nGood for: 68 % of the readings of these bags err by at most 6.2 kPa (1.0 % of the range) and 95 % "
-      "by at most 15.5 kPa (2.5 % of the range); worst bag: b.bag, RMSE 9.0 kPa; next: use it\n"))
+      {"\nGood for: 68 % of the readings of these bags err by at most 6.2 kPa (1.0 % of the range) and 95 % "
+       "by at most 15.5 kPa (2.5 % of the range); worst bag: b.bag, RMSE 9.0 kPa; next: use it\n"}))
       << checkText(example());
 }
 
 TEST(CheckReport, SaysWhatTheBagsDoNotShow) {
-  EXPECT_TRUE(contains(checkText(example()), "\nStill good.\n"));
+  EXPECT_TRUE(test_support::holds(checkText(example()), {"\nStill good.\n"}));
   CheckResult result = example();
   result.map.not_shown = {"the sheet's memory: 100.0 % of the readings were not settled"};
-  EXPECT_TRUE(contains(checkText(result), "\nNot shown: the sheet's memory: 100.0 %"));
-  EXPECT_TRUE(contains(checkText(result), "\nStill good as far as these bags show.\n"));
+  EXPECT_TRUE(test_support::holds(checkText(result), {"\nNot shown: the sheet's memory: 100.0 %"}));
+  EXPECT_TRUE(test_support::holds(checkText(result), {"\nStill good as far as these bags show.\n"}));
 }
 
 TEST(CheckReport, EndsWithTheVerdictAndItsReasons) {
   CheckResult result = example();
   result.verdict = Verdict::kRecalibrate;
   result.reasons = {"errors are large", "taxels are dead: (0, 1)"};
-  EXPECT_TRUE(contains(checkText(result),
-                       "\nRecalibrate, because\n  - errors are large\n  - taxels are dead: (0, 1)\n"));
+  EXPECT_TRUE(test_support::holds(
+      checkText(result), {"\nRecalibrate, because\n  - errors are large\n  - taxels are dead: (0, 1)\n"}));
   result.verdict = Verdict::kCorrected;
   result.reasons = {"it wins"};
-  EXPECT_TRUE(contains(checkText(result), "\nCorrected: it wins\n"));
+  EXPECT_TRUE(test_support::holds(checkText(result), {"\nCorrected: it wins\n"}));
 }
 
 }  // namespace

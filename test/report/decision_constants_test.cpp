@@ -8,6 +8,7 @@
 #include <regex>
 
 #include "report/discrepancy_report.h"
+#include "support/content_of.h"
 #include "support/source_dir.h"
 
 namespace fsr::report {
@@ -15,17 +16,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string textOf(const fs::path& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 // All constants stand in DiscrepancyOptions, below the comment that says so, and in results.json.
 TEST(Decision, PrintsItsConstantsAndThereAreAtMostFifteen) {
   const nlohmann::json printed =
       nlohmann::json::parse(discrepancyJson(discrepancy::DiscrepancyReport())).at("options");
-  const std::string header =
-      textOf(fs::path(test_support::sourceDir()) / "include/fsr_pressure_map/discrepancy/discrepancy.h");
+  const std::string header = test_support::contentOf(fs::path(test_support::sourceDir()) /
+                                                     "include/fsr_pressure_map/discrepancy/discrepancy.h");
   const auto begin = header.find("The constants of the decision");
   ASSERT_NE(begin, std::string::npos);
   const std::string constants = header.substr(begin, header.find("\n};", begin) - begin);

@@ -40,10 +40,6 @@ std::size_t cells(const std::string& line) {
   return number;
 }
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 }  // namespace
 
 TEST(StudyTables, HaveAsManyCellsInEachRowAsHeadings) {
@@ -61,8 +57,8 @@ TEST(StudyTables, HaveAsManyCellsInEachRowAsHeadings) {
 
 TEST(StudyTables, QuoteNamesAndLeaveUnknownNumbersEmpty) {
   const auto tables = fsr::report::studyTables(smallStudy());
-  EXPECT_TRUE(contains(tables.at("response.csv"), "\"a \"\"bent\"\", sheet\",7.7,"));
-  for (const auto& [name, content] : tables) EXPECT_FALSE(contains(content, ",nan")) << name;
+  EXPECT_TRUE(test_support::holds(tables.at("response.csv"), {"\"a \"\"bent\"\", sheet\",7.7,"}));
+  for (const auto& [name, content] : tables) EXPECT_FALSE(test_support::holds(content, {",nan"})) << name;
 }
 
 TEST(StudyTables, HaveEveryMethodOfEverySplit) {
@@ -82,9 +78,11 @@ TEST(StudyText, ShowsThePapersNumbersBesideOursAndStatesTheLimits) {
 
 TEST(StudyText, SaysWhyTheMemoryOfTheSheetIsNotAssessable) {
   const std::string text = fsr::report::studyText(smallStudy());
-  EXPECT_TRUE(contains(text, "\nhistory: not assessable: all cycles of the bags have one protocol")) << text;
+  EXPECT_TRUE(
+      test_support::holds(text, {"\nhistory: not assessable: all cycles of the bags have one protocol"}))
+      << text;
   const std::string json = fsr::report::studyJson(smallStudy());
-  EXPECT_TRUE(contains(json, "\"assessable\": false")) << json;
+  EXPECT_TRUE(test_support::holds(json, {"\"assessable\": false"})) << json;
 }
 
 TEST(StudyText, ShowsTheHistoryBesideTheStaticAnswerAndByProtocol) {
@@ -97,10 +95,10 @@ TEST(StudyText, ShowsTheHistoryBesideTheStaticAnswerAndByProtocol) {
   const std::string text = test_support::squeezed(fsr::report::studyText(result));
   EXPECT_TRUE(test_support::holds(text, {"leave_protocol_out: by protocol\n history ",
                                          "History: plays, the best", "8.00 4.00 7.00 5.00 6.00"}));
-  EXPECT_FALSE(contains(text, "not assessable")) << text;
-  EXPECT_TRUE(contains(fsr::report::studyJson(result), "\"correction_alone\": 6000")) << text;
-  EXPECT_TRUE(
-      contains(fsr::report::studyTables(result).at("scores.csv"), "\"leave_protocol_out\",\"history\""));
+  EXPECT_FALSE(test_support::holds(text, {"not assessable"})) << text;
+  EXPECT_TRUE(test_support::holds(fsr::report::studyJson(result), {"\"correction_alone\": 6000"})) << text;
+  EXPECT_TRUE(test_support::holds(fsr::report::studyTables(result).at("scores.csv"),
+                                  {"\"leave_protocol_out\",\"history\""}));
 }
 
 TEST(StudyText, ShowsTheErrorOfTheMapAgainstTheErrorOfTheCurvature) {
@@ -123,30 +121,30 @@ TEST(StudyText, ShowsTheErrorOfTheMapAgainstTheErrorOfTheCurvature) {
                                          " interpolated 25.0 20.0 31.0\n",
                                          " interpolated 75 - -\n"}));
   const auto tables = fsr::report::studyTables(result);
-  EXPECT_TRUE(
-      contains(tables.at("curvature_errors.csv"), "\"interpolated\",\"Interpolated\",-5,0,3.5,25,8,6,"))
+  EXPECT_TRUE(test_support::holds(tables.at("curvature_errors.csv"),
+                                  {"\"interpolated\",\"Interpolated\",-5,0,3.5,25,8,6,"}))
       << tables.at("curvature_errors.csv");
   EXPECT_TRUE(test_support::holds(tables.at("curvature_errors_by_surface.csv"),
                                   {"\"interpolated\",\"Interpolated\",0,2,\"cylinder_5cm\",30\n"}));
   const std::string json = fsr::report::studyJson(result);
-  EXPECT_TRUE(contains(json, "\"moved_pa\": 8000")) << json;
+  EXPECT_TRUE(test_support::holds(json, {"\"moved_pa\": 8000"})) << json;
   result.curvature_errors.clear();
-  EXPECT_FALSE(contains(fsr::report::studyText(result), "error of the curvature"));
+  EXPECT_FALSE(test_support::holds(fsr::report::studyText(result), {"error of the curvature"}));
 }
 
 TEST(StudyText, NamesTheWorstTaxelByRowAndColumn) {
   fsr::study::StudyResult result = smallStudy();
   result.layout.size = {2, 2};
   result.comparisons.front().scores.front().worst_taxel = 3;
-  EXPECT_TRUE(contains(fsr::report::studyText(result), "  row 1, column 1 (taxel 3)\n"));
+  EXPECT_TRUE(test_support::holds(fsr::report::studyText(result), {"  row 1, column 1 (taxel 3)\n"}));
 }
 
 TEST(StudyJson, HasThePublishedTestsAndEveryDecision) {
   const fsr::study::StudyResult& result = smallStudy();
   const std::string json = fsr::report::studyJson(result);
-  EXPECT_TRUE(contains(json, "\"as_published_taxels_treated_as_independent\""));
+  EXPECT_TRUE(test_support::holds(json, {"\"as_published_taxels_treated_as_independent\""}));
   for (const fsr::study::StudyDecision& decision : result.decisions) {
-    EXPECT_TRUE(contains(json, "\"subject\": \"" + decision.subject + '"')) << decision.subject;
+    EXPECT_TRUE(test_support::holds(json, {"\"subject\": \"" + decision.subject + '"'}));
   }
   EXPECT_GE(result.decisions.size(), 12u);
 }
@@ -154,5 +152,5 @@ TEST(StudyJson, HasThePublishedTestsAndEveryDecision) {
 TEST(StudyJson, WritesNullForAnUnknownNumber) {
   fsr::study::StudyResult result = smallStudy();
   result.comparisons.front().scores.front().r2_spread.mean = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_TRUE(contains(fsr::report::studyJson(result), "\"mean\": null"));
+  EXPECT_TRUE(test_support::holds(fsr::report::studyJson(result), {"\"mean\": null"}));
 }

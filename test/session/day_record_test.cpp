@@ -21,7 +21,7 @@ using rig_day::planFrom;
 using rig_day::RigDay;
 namespace fs = std::filesystem;
 
-constexpr char kDay[] =
+constexpr char kShortDay[] =
     "plan: \"<my> day\"\n"
     "conditioning: {cycles: 1, rate: 20000}\n"
     "rest: {before: 5, after: 5}\n"
@@ -47,7 +47,7 @@ ConductorState dayWithTrouble(RigDay& day) {
 }
 
 TEST_F(DayRecord, FindsTheBagsOfEachMount) {
-  const auto plan = planFrom(kDay);
+  const auto plan = planFrom(kShortDay);
   for (const char* const name :
        {"_my__day_01_flat.bag", "_my__day_01_flat_part10.bag", "_my__day_01_flat_part2.bag",
         "_my__day_01_flat_part3.bag.active", "_my__day_01_flat_copy.bag", "other_01_flat.bag"})
@@ -59,7 +59,7 @@ TEST_F(DayRecord, FindsTheBagsOfEachMount) {
 }
 
 TEST_F(DayRecord, ThePlanInTheFolderIsThePlanOfTheState) {
-  const auto plan = planFrom(kDay);
+  const auto plan = planFrom(kShortDay);
   std::ofstream(path("plan.yaml")) << planText(plan, {"The plan of this session."});
   EXPECT_EQ(digestOf(fsr::session::readPlanFile(path("plan.yaml"))), digestOf(plan));
 }
@@ -67,7 +67,7 @@ TEST_F(DayRecord, ThePlanInTheFolderIsThePlanOfTheState) {
 // Written before the digest was that of the content: it is the SHA-256 of the text that the writer of that
 // version put into the folder, without its first line.
 TEST_F(DayRecord, ASessionWhosePlanWasWordedOtherwiseGoesOn) {
-  const auto plan = planFrom(kDay);
+  const auto plan = planFrom(kShortDay);
   std::string text = planText(plan);
   text.replace(text.find("# of the order"), 14, "# in other words");
   std::ofstream(path(planFileName(plan.name))) << "# The plan of this session.\n" << text;
@@ -85,7 +85,7 @@ TEST_F(DayRecord, ASessionWhosePlanWasWordedOtherwiseGoesOn) {
 }
 
 TEST_F(DayRecord, ADigestIsThatOfWhatIsDone) {
-  const auto plan = planFrom(kDay);
+  const auto plan = planFrom(kShortDay);
   auto same = plan;
   same.origin = "elsewhere.yaml";
   same.thermometer = !plan.thermometer;
@@ -99,7 +99,7 @@ TEST_F(DayRecord, ADigestIsThatOfWhatIsDone) {
 }
 
 TEST_F(DayRecord, TheStateKeepsWhyStepsWereRejectedOrAcceptedByHand) {
-  const auto plan = planFrom(kDay);
+  const auto plan = planFrom(kShortDay);
   RigDay rig(plan);
   ConductorState state = dayWithTrouble(rig);
   state.remarks.push_back({4, Reason::kNone, "accepted by hand, although: \"so\""});

@@ -59,13 +59,13 @@ Json discrepancyJson() {
 }
 
 // Steps: 1 mount, 2 and 3 cycles, 4 rest.
-constexpr char kPlan[] =
+constexpr char kTwoCycles[] =
     "plan: day\nconditioning: {cycles: 0}\nrest: {before: 0, after: 5}\nrepeat_first: false\n"
     "surfaces: [{surface: flat}]\n"
     "program: [{cycles: {peak: 600000, rate: 20000, dwell_peak: 1, dwell_rest: 1, cycles: 2}}]\n";
 
 DayReport fullDay() {
-  const SessionPlan plan = example_plans::planFrom(kPlan);
+  const SessionPlan plan = example_plans::planFrom(kTwoCycles);
   ConductorState state = Conductor(plan).state();
   state.rejected = 1;
   state.steps = {StepState::kAccepted, StepState::kAccepted, StepState::kSkipped, StepState::kAccepted};

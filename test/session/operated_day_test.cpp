@@ -16,6 +16,7 @@
 #include "session/plan_file.h"
 #include "simulation/settings_text.h"
 #include "support/clumsy_operator.h"
+#include "support/content_of.h"
 #include "support/source_dir.h"
 
 namespace {
@@ -139,8 +140,7 @@ class OperatedDay : fsr::protocol::PacketHandler {
     throw std::out_of_range(name);
   }
   static fsr::simulation::SimulationSettings bench(unsigned seed, bool mounts_differ) {
-    std::ifstream file(test_support::sourceDir() + "/config/simulation/bench.yaml");
-    std::string text(std::istreambuf_iterator<char>(file), {});
+    std::string text = test_support::contentOf(test_support::sourceDir() + "/config/simulation/bench.yaml");
     if (mounts_differ) text += "  repositioning: {offset: 2000, gain: 0.01}\n";
     auto settings = fsr::simulation::readSimulation(fsr::settings::Settings::fromText(text, "bench.yaml"));
     settings.seed = seed;

@@ -9,6 +9,7 @@
 #include <iterator>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "support/content_of.h"
 #include "support/file_size_limit.h"
 #include "support/folder_test.h"
 #include "support/holds.h"
@@ -20,10 +21,6 @@ namespace fs = std::filesystem;
 
 class ReplaceFile : public test_support::FolderTest {
  protected:
-  static std::string contentOf(const fs::path& path) {
-    std::ifstream in(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
   std::size_t files() const {
     return std::size_t(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
   }
@@ -32,7 +29,7 @@ class ReplaceFile : public test_support::FolderTest {
 TEST_F(ReplaceFile, LeavesOnlyTheNewContentAtThePath) {
   replaceFile(folder_ / "a.yaml", std::string("long old\0content", 16));
   replaceFile(folder_ / "a.yaml", std::string("new\0one", 7));
-  EXPECT_EQ(contentOf(folder_ / "a.yaml"), std::string("new\0one", 7));
+  EXPECT_EQ(test_support::contentOf(folder_ / "a.yaml"), std::string("new\0one", 7));
   EXPECT_EQ(files(), 1u);
 }
 
@@ -46,7 +43,7 @@ TEST_F(ReplaceFile, KeepsOnlyTheOldContentWhereTheDiskIsFull) {
   replaceFile(folder_ / "a.yaml", "old");
   const test_support::FileSizeLimit disk(1000);
   EXPECT_THROW(replaceFile(folder_ / "a.yaml", std::string(2000, 'x')), InputError);
-  EXPECT_EQ(contentOf(folder_ / "a.yaml"), "old");
+  EXPECT_EQ(test_support::contentOf(folder_ / "a.yaml"), "old");
   EXPECT_EQ(files(), 1u);
 }
 
@@ -87,9 +84,9 @@ TEST_F(ReplaceFile, GivesANewNameWithoutReplacingAnything) {
   replaceFile(folder_ / "a", "a");
   replaceFile(folder_ / "b", "b");
   EXPECT_EQ(renameToNew(folder_ / "a", folder_ / "b"), EEXIST);
-  EXPECT_EQ(contentOf(folder_ / "b"), "b");
+  EXPECT_EQ(test_support::contentOf(folder_ / "b"), "b");
   EXPECT_EQ(renameToNew(folder_ / "a", folder_ / "c"), 0);
-  EXPECT_EQ(contentOf(folder_ / "c"), "a");
+  EXPECT_EQ(test_support::contentOf(folder_ / "c"), "a");
 }
 
 }  // namespace

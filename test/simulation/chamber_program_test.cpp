@@ -19,7 +19,7 @@ PressureProfile program(const std::string& parts) {
       Settings::fromText("program: " + parts, "a.yaml").sections("program")));
 }
 
-std::string complaintAbout(const std::string& parts) {
+std::string complaintAboutProgram(const std::string& parts) {
   return test_support::refusal([&] { program(parts); }, "none");
 }
 
@@ -52,15 +52,16 @@ TEST(ChamberProgram, VentsBeforeCyclesThatFollowAHold) {
 }
 
 TEST(ChamberProgram, RefusesByName) {
-  EXPECT_TRUE(holds(complaintAbout("[{hold: {pressure: 800e3, duration: 1}}]"),
+  EXPECT_TRUE(holds(complaintAboutProgram("[{hold: {pressure: 800e3, duration: 1}}]"),
                     {"program[0].hold.pressure is 800e3", "793"}));
-  EXPECT_TRUE(holds(complaintAbout("[{rest: {duration: -1}}]"), {"program[0].rest.duration is -1"}));
-  EXPECT_TRUE(holds(complaintAbout("[{loops: {low: 3e5, high: 2e5, loops: 1}}]"), {"must be above low"}));
+  EXPECT_TRUE(holds(complaintAboutProgram("[{rest: {duration: -1}}]"), {"program[0].rest.duration is -1"}));
   EXPECT_TRUE(
-      holds(complaintAbout("[{pause: {duration: 1}}]"), {"give exactly one of cycles, hold, loops, rest"}));
-  EXPECT_TRUE(
-      holds(complaintAbout("[{rest: {duration: 1}, hold: {pressure: 1, duration: 1}}]"), {"exactly one"}));
-  EXPECT_TRUE(holds(complaintAbout("[{cycles: {cycles: 0}}, {rest: {duration: 1}}]"), {"never ends"}));
+      holds(complaintAboutProgram("[{loops: {low: 3e5, high: 2e5, loops: 1}}]"), {"must be above low"}));
+  EXPECT_TRUE(holds(complaintAboutProgram("[{pause: {duration: 1}}]"),
+                    {"give exactly one of cycles, hold, loops, rest"}));
+  EXPECT_TRUE(holds(complaintAboutProgram("[{rest: {duration: 1}, hold: {pressure: 1, duration: 1}}]"),
+                    {"exactly one"}));
+  EXPECT_TRUE(holds(complaintAboutProgram("[{cycles: {cycles: 0}}, {rest: {duration: 1}}]"), {"never ends"}));
 }
 
 }  // namespace

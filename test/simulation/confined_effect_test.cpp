@@ -8,7 +8,7 @@
 namespace fsr::simulation {
 namespace {
 
-const char* const kRig = R"(
+const char* const kTwoSurfaces = R"(
 simulation: confined
 matrix: {rows: 2, columns: 3}
 board: {scan_rate: 2, transducer_rate: 2}
@@ -22,7 +22,7 @@ effects:
 )";
 
 SimulationSettings settings(const std::string& more) {
-  return readSimulation(settings::Settings::fromText(kRig + more, "confined.yaml"));
+  return readSimulation(settings::Settings::fromText(kTwoSurfaces + more, "confined.yaml"));
 }
 
 // Whether a taxel reads otherwise anywhere in a recording.

@@ -7,14 +7,14 @@
 #include <iterator>
 
 #include "simulation/effects/effect_library.h"
+#include "support/content_of.h"
 #include "support/source_dir.h"
 
 namespace {
 
 TEST(EffectsDocument, TellsOfEveryEffectAndShowsItsPicture) {
   const std::filesystem::path docs = test_support::sourceDir() + "/docs";
-  std::ifstream file(docs / "effects.md");
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const std::string text = test_support::contentOf(docs / "effects.md");
   for (const fsr::simulation::EffectEntry& entry : fsr::simulation::effectLibrary()) {
     const std::string& id = entry.info.id;
     if (entry.info.kind == fsr::simulation::EffectKind::kBase) continue;

@@ -13,7 +13,7 @@ using fsr::simulation::RigState;
 using Counts = std::vector<std::uint16_t>;
 
 // Every kind of memory, noise and mounts that scatter.
-fsr::simulation::SimulationSettings rig(const std::string& session, const std::string& more = "") {
+fsr::simulation::SimulationSettings rememberingRig(const std::string& session, const std::string& more = "") {
   return fsr::simulation::readSimulation(Settings::fromText(
       "{simulation: t, start: 1704099600.5, matrix: {rows: 2, columns: 3},"
       " program: [{hold: {pressure: 300e3, rate: 30e3, duration: 5}}, {rest: {rate: 30e3, duration: 5}}],"
@@ -43,7 +43,8 @@ RigState throughText(const RigState& state) {
 
 TEST(RigState, ASessionInTwoPartsReadsWhatItReadsInOne) {
   Counts whole, parts;
-  fsr::simulation::Session one(rig(kFlat + "," + kBent)), first(rig(kFlat)), second(rig(kBent));
+  fsr::simulation::Session one(rememberingRig(kFlat + "," + kBent)), first(rememberingRig(kFlat)),
+      second(rememberingRig(kBent));
   goThrough(one, whole);
   goThrough(first, parts);
   second.resume(throughText(first.state()));
@@ -52,14 +53,14 @@ TEST(RigState, ASessionInTwoPartsReadsWhatItReadsInOne) {
   goThrough(second, parts);
   EXPECT_EQ(parts, whole);
   EXPECT_EQ(stateText(second.state()), stateText(one.state()));
-  fsr::simulation::Session fresh(rig(kBent));
+  fsr::simulation::Session fresh(rememberingRig(kBent));
   Counts without;
   goThrough(fresh, without);
   EXPECT_NE(without, Counts(whole.end() - static_cast<std::ptrdiff_t>(without.size()), whole.end()));
 }
 
 TEST(RigState, ADrivenRigGoesOnWhereItWasLeft) {
-  const auto recordings = fsr::simulation::simulateSession(rig(kFlat + "," + kBent));
+  const auto recordings = fsr::simulation::simulateSession(rememberingRig(kFlat + "," + kBent));
   const auto run = [](fsr::simulation::DrivenRig& driven, const fsr::dataset::Recording& recording) {
     Counts counts;
     driven.run(recording, [&](std::size_t, const fsr::simulation::SensorChain& chain) {
@@ -67,7 +68,8 @@ TEST(RigState, ADrivenRigGoesOnWhereItWasLeft) {
     });
     return counts;
   };
-  fsr::simulation::DrivenRig one(rig(kFlat)), first(rig(kFlat)), second(rig(kFlat));
+  fsr::simulation::DrivenRig one(rememberingRig(kFlat)), first(rememberingRig(kFlat)),
+      second(rememberingRig(kFlat));
   run(one, recordings[0]);
   run(first, recordings[0]);
   second.resume(throughText(first.state()));
@@ -76,10 +78,10 @@ TEST(RigState, ADrivenRigGoesOnWhereItWasLeft) {
 }
 
 TEST(RigState, ASheetThatStayedWhereItLayIsNotMountedAnew) {
-  auto recordings = fsr::simulation::simulateSession(rig(kFlat + "," + kFlat));
+  auto recordings = fsr::simulation::simulateSession(rememberingRig(kFlat + "," + kFlat));
   recordings[1].conditions[0].mount = recordings[0].conditions[0].mount;
   const auto last = [&](bool saved) {
-    fsr::simulation::DrivenRig first(rig(kFlat)), second(rig(kFlat));
+    fsr::simulation::DrivenRig first(rememberingRig(kFlat)), second(rememberingRig(kFlat));
     const auto ignore = [](std::size_t, const fsr::simulation::SensorChain&) {};
     first.run(recordings[0], ignore);
     if (saved) second.resume(first.state());
@@ -91,9 +93,10 @@ TEST(RigState, ASheetThatStayedWhereItLayIsNotMountedAnew) {
 }
 
 TEST(RigState, OfAnotherRigIsRefused) {
-  fsr::simulation::Session other(rig(kFlat, ", turn_on: {}, time_skew: {}"));
-  EXPECT_NO_THROW(other.resume(fsr::simulation::Session(rig(kFlat)).state()));  // these remember nothing
-  fsr::simulation::SimulationSettings small = rig(kFlat);
+  fsr::simulation::Session other(rememberingRig(kFlat, ", turn_on: {}, time_skew: {}"));
+  EXPECT_NO_THROW(
+      other.resume(fsr::simulation::Session(rememberingRig(kFlat)).state()));  // these remember nothing
+  fsr::simulation::SimulationSettings small = rememberingRig(kFlat);
   small.layout.size = {1, 1};
   EXPECT_THROW(fsr::simulation::Session(small).resume(other.state()), fsr::settings::InputError);
   EXPECT_THROW(fsr::simulation::readRigState(Settings::fromText("{rig_state: 2}", "state.yaml")),

@@ -10,7 +10,7 @@ namespace {
 using namespace sample_data;
 using fsr::statistics::friedman;
 
-void expectR(const fsr::statistics::RepeatedMeasures& data, double chi2, double df, double p) {
+void expectFriedman(const fsr::statistics::RepeatedMeasures& data, double chi2, double df, double p) {
   const fsr::statistics::TestResult result = friedman(data);
   expectNear(result.statistic, chi2);
   EXPECT_EQ(result.degrees_of_freedom, Values{df});
@@ -19,11 +19,11 @@ void expectR(const fsr::statistics::RepeatedMeasures& data, double chi2, double 
 
 // r <- friedman.test(...); sprintf("%.15g", c(r$statistic, r$parameter, r$p.value))
 TEST(Friedman, AgreesWithR) {
-  expectR(roundingTimes(), 11.1428571428571, 2, 0.00380504077551136);
-  expectR(skewed5(), 5.45142857142857, 4, 0.244032052963709);
-  expectR(tied5(), 54.828, 4, 3.53007107175577e-11);
-  expectR(measures({kA, kB}), 2.77777777777778, 1, 0.0955807045456288);
-  expectR(measures({{1, 2}, {2, 3}, {3, 1}}), 1, 2, 0.606530659712633);
+  expectFriedman(roundingTimes(), 11.1428571428571, 2, 0.00380504077551136);
+  expectFriedman(skewed5(), 5.45142857142857, 4, 0.244032052963709);
+  expectFriedman(tied5(), 54.828, 4, 3.53007107175577e-11);
+  expectFriedman(measures({kA, kB}), 2.77777777777778, 1, 0.0955807045456288);
+  expectFriedman(measures({{1, 2}, {2, 3}, {3, 1}}), 1, 2, 0.606530659712633);
 }
 
 TEST(Friedman, GivesPOneWhereEveryUnitIsTied) {

@@ -9,7 +9,7 @@ namespace {
 using namespace sample_data;
 using fsr::statistics::pairedSignTest;
 
-void expectR(const Values& first, const Values& second, double positive, std::size_t signs, double p) {
+void expectSigns(const Values& first, const Values& second, double positive, std::size_t signs, double p) {
   const fsr::statistics::TestResult result = pairedSignTest(first, second);
   EXPECT_EQ(result.statistic, positive);
   EXPECT_EQ(result.n - result.dropped, signs);
@@ -19,12 +19,12 @@ void expectR(const Values& first, const Values& second, double positive, std::si
 // d <- first - second; c(sum(d > 0), sum(d != 0)); sprintf("%.15g", binom.test(sum(d > 0), sum(d !=
 // 0))$p.value)
 TEST(PairedSignTest, AgreesWithR) {
-  expectR(kA, kB, 7, 9, 0.1796875);
-  expectR(kSleep1, kSleep2, 0, 9, 0.00390625);
-  expectR(kX70, kY70, 24, 70, 0.0115264096543635);
-  expectR(kT70, kU70, 48, 61, 7.66516838044545e-06);
-  expectR({1, 2, 3, 4}, {2, 1, 4, 3}, 2, 4, 1);
-  expectR(kX70, mapped(kY70, [](double y) { return y + 20; }), 0, 70, 1.69406589450861e-21);
+  expectSigns(kA, kB, 7, 9, 0.1796875);
+  expectSigns(kSleep1, kSleep2, 0, 9, 0.00390625);
+  expectSigns(kX70, kY70, 24, 70, 0.0115264096543635);
+  expectSigns(kT70, kU70, 48, 61, 7.66516838044545e-06);
+  expectSigns({1, 2, 3, 4}, {2, 1, 4, 3}, 2, 4, 1);
+  expectSigns(kX70, mapped(kY70, [](double y) { return y + 20; }), 0, 70, 1.69406589450861e-21);
 }
 
 TEST(PairedSignTest, GivesPOneWhereAllDifferencesAreZero) {

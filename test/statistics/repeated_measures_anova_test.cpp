@@ -10,13 +10,13 @@ namespace {
 using namespace sample_data;
 using fsr::statistics::repeatedMeasuresAnova;
 
-struct Reference {
+struct AnovaOfR {
   double f, df1, df2, p;  // of R's table
   double gg, gg_p, hf, hf_p;
   double w, mauchly_p;
 };
 
-void expectR(const fsr::statistics::RepeatedMeasures& data, const Reference& r) {
+void expectAnova(const fsr::statistics::RepeatedMeasures& data, const AnovaOfR& r) {
   const fsr::statistics::RepeatedMeasuresAnova result = repeatedMeasuresAnova(data);
   expectNear(result.test.statistic, r.f);
   EXPECT_EQ(result.test.degrees_of_freedom, (Values{r.df1, r.df2}));
@@ -44,27 +44,28 @@ fsr::statistics::RepeatedMeasures firstUnits(fsr::statistics::RepeatedMeasures d
 // For RT the mean is subtracted: R's contrasts are orthogonal to the units' level to 1e-10 only, which
 // matters at 5.5 s. u <- mauchly.test(lm(m %*% H ~ 1)); sprintf("%.15g", c(u$statistic, u$p.value))
 TEST(RepeatedMeasuresAnova, AgreesWithR) {
-  expectR(roundingTimes(),
-          {6.28830791576219, 2, 42, 0.00408410072218699, 0.773501463270237, 0.00843979904539667,
-           0.823370924873981, 0.00718882158641832, 0.707177623463382, 0.0312813222776286});
-  expectR(skewed5(), {0.998345340941805, 4, 276, 0.408843195591877, 0.930234212660215, 0.405440880371234,
-                      0.989848686069102, 0.408370136210707, 0.84193741251648, 0.237002838985857});
-  expectR(tied5(), {20.1833938888557, 4, 276, 1.3497713855822e-14, 0.704214629951822, 6.00150461017545e-11,
-                    0.737272710320512, 2.34179476711271e-11, 0.372537667698601, 7.27698489529451e-11});
+  expectAnova(roundingTimes(),
+              {6.28830791576219, 2, 42, 0.00408410072218699, 0.773501463270237, 0.00843979904539667,
+               0.823370924873981, 0.00718882158641832, 0.707177623463382, 0.0312813222776286});
+  expectAnova(skewed5(), {0.998345340941805, 4, 276, 0.408843195591877, 0.930234212660215, 0.405440880371234,
+                          0.989848686069102, 0.408370136210707, 0.84193741251648, 0.237002838985857});
+  expectAnova(tied5(),
+              {20.1833938888557, 4, 276, 1.3497713855822e-14, 0.704214629951822, 6.00150461017545e-11,
+               0.737272710320512, 2.34179476711271e-11, 0.372537667698601, 7.27698489529451e-11});
 }
 
 TEST(RepeatedMeasuresAnova, UsesAnEpsilonAboveOneAsOne) {
-  expectR(normal3(), {7.68297844903738, 2, 58, 0.00109665193601302, 0.96224105287834, 0.00129032216425848,
-                      1.02924094361553, 0.00109665193601302, 0.960759367926911, 0.570958823301983});
+  expectAnova(normal3(), {7.68297844903738, 2, 58, 0.00109665193601302, 0.96224105287834, 0.00129032216425848,
+                          1.02924094361553, 0.00109665193601302, 0.960759367926911, 0.570958823301983});
 }
 
 TEST(RepeatedMeasuresAnova, AgreesWithROnFewUnits) {
-  expectR(firstUnits(skewed5(), 20, 5),  // m5[1:20, ]
-          {2.10009366941424, 4, 76, 0.0890128648160115, 0.763984480386759, 0.108967730640418,
-           0.926971403837462, 0.0947415841669971, 0.451947316912881, 0.130000458011334});
-  expectR(firstUnits(skewed5(), 6, 4),  // m5[1:6, 1:4]
-          {3.0927397081296, 3, 15, 0.0589194339220102, 0.502925310734349, 0.111419013730577,
-           0.673369898948621, 0.0892499673097401, 0.018192732728116, 0.0134731739857929});
+  expectAnova(firstUnits(skewed5(), 20, 5),  // m5[1:20, ]
+              {2.10009366941424, 4, 76, 0.0890128648160115, 0.763984480386759, 0.108967730640418,
+               0.926971403837462, 0.0947415841669971, 0.451947316912881, 0.130000458011334});
+  expectAnova(firstUnits(skewed5(), 6, 4),  // m5[1:6, 1:4]
+              {3.0927397081296, 3, 15, 0.0589194339220102, 0.502925310734349, 0.111419013730577,
+               0.673369898948621, 0.0892499673097401, 0.018192732728116, 0.0134731739857929});
 }
 
 TEST(RepeatedMeasuresAnova, IsThePairedTTestOnTwoTreatments) {

@@ -15,7 +15,7 @@ Values differences(const Values& first, const Values& second) {
   return d;
 }
 
-void expectR(const Values& sample, double z, double p) {
+void expectTriples(const Values& sample, double z, double p) {
   const fsr::statistics::TestResult result = triplesTest(sample);
   expectNear(result.statistic, z);
   expectNear(result.p, p);
@@ -29,20 +29,21 @@ void expectR(const Values& sample, double z, double p) {
 //     T <- sum(B)/3; v <- (n-3)*(n-4)/((n-1)*(n-2))*sum(B^2) + (n-3)/(n-4)*sum(B2^2) + n*(n-1)*(n-2)/6 -
 //       (1-(n-3)*(n-4)*(n-5)/(n*(n-1)*(n-2)))*T^2; z <- T/sqrt(v); sprintf("%.15g", c(z, 2*pnorm(-abs(z)))) }
 TEST(TriplesTest, AgreesWithItsDefinitionInR) {
-  expectR(differences(kA, kB), -0.248616480800019, 0.803657458874118);  // tri(a - b)
-  expectR(differences(kX70, kY70), -0.370844946940964, 0.710753021748859);
-  expectR({1, 2, 4, 9, 10}, 0.431331092813754, 0.666227645409619);
-  expectR(kX70, 7.13859663369691, 9.42885742326955e-13);
+  expectTriples(differences(kA, kB), -0.248616480800019, 0.803657458874118);  // tri(a - b)
+  expectTriples(differences(kX70, kY70), -0.370844946940964, 0.710753021748859);
+  expectTriples({1, 2, 4, 9, 10}, 0.431331092813754, 0.666227645409619);
+  expectTriples(kX70, 7.13859663369691, 9.42885742326955e-13);
 }
 
 TEST(TriplesTest, AgreesWithItsDefinitionInRUnderTies) {
-  expectR(differences(kT70, kU70), -1.48300797135836, 0.138072292895723);
-  expectR({-12, -24, -13, -13, 0, -10, -18, -8, -46, -14}, -0.697341209514457,
-          0.485589284182965);  // 10 * (s1 - s2)
+  expectTriples(differences(kT70, kU70), -1.48300797135836, 0.138072292895723);
+  expectTriples({-12, -24, -13, -13, 0, -10, -18, -8, -46, -14}, -0.697341209514457,
+                0.485589284182965);  // 10 * (s1 - s2)
 }
 
 TEST(TriplesTest, StaysFiniteWhereAllTriplesAreSkewedAlike) {
-  expectR({1, 2, 4, 8, 16, 32, 64, 128, 256, 512}, 4.14039335605412, 3.46710768726972e-05);  // tri(2^(0:9))
+  expectTriples({1, 2, 4, 8, 16, 32, 64, 128, 256, 512}, 4.14039335605412,
+                3.46710768726972e-05);  // tri(2^(0:9))
 }
 
 TEST(TriplesTest, HandlesDegenerateDataAsDocumented) {

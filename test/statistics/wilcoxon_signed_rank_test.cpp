@@ -11,8 +11,8 @@ using fsr::statistics::PMethod;
 using fsr::statistics::WilcoxonMethod;
 using fsr::statistics::wilcoxonSignedRank;
 
-void expectR(const Values& first, const Values& second, WilcoxonMethod method, double v, double p,
-             PMethod taken) {
+void expectWilcoxon(const Values& first, const Values& second, WilcoxonMethod method, double v, double p,
+                    PMethod taken) {
   const fsr::statistics::TestResult result = wilcoxonSignedRank(first, second, method);
   EXPECT_EQ(result.statistic, v);
   expectNear(result.p, p);
@@ -21,33 +21,36 @@ void expectR(const Values& first, const Values& second, WilcoxonMethod method, d
 
 // r <- wilcox.test(first, second, paired = TRUE); sprintf("%.15g", c(r$statistic, r$p.value))
 TEST(WilcoxonSignedRank, AgreesWithRExactlyBelowFiftyWithoutTies) {
-  expectR(kA, kB, WilcoxonMethod::kAuto, 40, 0.0390625, PMethod::kExact);
-  expectR(head(kX70, 49), head(kY70, 49), WilcoxonMethod::kAuto, 352, 0.00885282402986221, PMethod::kExact);
-  expectR({1, 2, 3, 4, 5}, Values(5, 0.1), WilcoxonMethod::kAuto, 15, 0.0625, PMethod::kExact);
-  expectR({1}, {2}, WilcoxonMethod::kAuto, 0, 1, PMethod::kExact);
+  expectWilcoxon(kA, kB, WilcoxonMethod::kAuto, 40, 0.0390625, PMethod::kExact);
+  expectWilcoxon(head(kX70, 49), head(kY70, 49), WilcoxonMethod::kAuto, 352, 0.00885282402986221,
+                 PMethod::kExact);
+  expectWilcoxon({1, 2, 3, 4, 5}, Values(5, 0.1), WilcoxonMethod::kAuto, 15, 0.0625, PMethod::kExact);
+  expectWilcoxon({1}, {2}, WilcoxonMethod::kAuto, 0, 1, PMethod::kExact);
 }
 
 TEST(WilcoxonSignedRank, AgreesWithRsApproximationFromFiftyOn) {
-  expectR(kX70, kY70, WilcoxonMethod::kAuto, 773, 0.0060571099400539, PMethod::kNormalApproximation);
-  expectR(kT70, kU70, WilcoxonMethod::kAuto, 1578.5, 5.10917774688723e-06, PMethod::kNormalApproximation);
+  expectWilcoxon(kX70, kY70, WilcoxonMethod::kAuto, 773, 0.0060571099400539, PMethod::kNormalApproximation);
+  expectWilcoxon(kT70, kU70, WilcoxonMethod::kAuto, 1578.5, 5.10917774688723e-06,
+                 PMethod::kNormalApproximation);
 }
 
 // ... wilcox.test(..., exact = TRUE) and wilcox.test(..., exact = FALSE)
 TEST(WilcoxonSignedRank, AgreesWithRForAGivenMethod) {
-  expectR(kX70, kY70, WilcoxonMethod::kExact, 773, 0.00555593080661182, PMethod::kExact);
-  expectR(head(kX70, 49), head(kY70, 49), WilcoxonMethod::kNormal, 352, 0.00970134088867275,
-          PMethod::kNormalApproximation);
-  expectR(kSleep1, kSleep2, WilcoxonMethod::kNormal, 0, 0.00909069801592506, PMethod::kNormalApproximation);
-  expectR(head(kT70, 12), head(kU70, 12), WilcoxonMethod::kNormal, 55, 0.00514376422511499,
-          PMethod::kNormalApproximation);
+  expectWilcoxon(kX70, kY70, WilcoxonMethod::kExact, 773, 0.00555593080661182, PMethod::kExact);
+  expectWilcoxon(head(kX70, 49), head(kY70, 49), WilcoxonMethod::kNormal, 352, 0.00970134088867275,
+                 PMethod::kNormalApproximation);
+  expectWilcoxon(kSleep1, kSleep2, WilcoxonMethod::kNormal, 0, 0.00909069801592506,
+                 PMethod::kNormalApproximation);
+  expectWilcoxon(head(kT70, 12), head(kU70, 12), WilcoxonMethod::kNormal, 55, 0.00514376422511499,
+                 PMethod::kNormalApproximation);
 }
 
 // library(exactRankTests); r <- wilcox.exact(first, second, paired = TRUE, exact = TRUE)
 TEST(WilcoxonSignedRank, CountsTheConditionalDistributionUnderTiesAndZeros) {
-  expectR(kSleep1, kSleep2, WilcoxonMethod::kAuto, 0, 0.00390625, PMethod::kExact);
-  expectR(head(kT70, 12), head(kU70, 12), WilcoxonMethod::kAuto, 55, 0.001953125, PMethod::kExact);
-  expectR(head(kT70, 40), head(kU70, 40), WilcoxonMethod::kAuto, 504.5, 0.000174481770955026,
-          PMethod::kExact);
+  expectWilcoxon(kSleep1, kSleep2, WilcoxonMethod::kAuto, 0, 0.00390625, PMethod::kExact);
+  expectWilcoxon(head(kT70, 12), head(kU70, 12), WilcoxonMethod::kAuto, 55, 0.001953125, PMethod::kExact);
+  expectWilcoxon(head(kT70, 40), head(kU70, 40), WilcoxonMethod::kAuto, 504.5, 0.000174481770955026,
+                 PMethod::kExact);
 }
 
 TEST(WilcoxonSignedRank, DropsDifferencesOfZeroAndCountsThem) {

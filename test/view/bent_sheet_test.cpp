@@ -5,18 +5,12 @@
 #include <cmath>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "view/small_sheet.h"
 
 namespace fsr::view {
 namespace {
 
-const matrix::Layout kLayout{{7, 10}, 0.010, 0.012};
 constexpr double kRounding = 1e-14;  // [m], after about 20 chained motions
-
-matrix::Surface uniform(const matrix::Curvature& curvature) {
-  matrix::Surface surface;
-  surface.curvature = {curvature};
-  return surface;
-}
 
 // Position on a cylinder of curvature k [1/m] whose axis is at `angle` [rad] from the y axis: arc length
 // across the axis, straight along it.

@@ -6,17 +6,10 @@
 #include <numeric>
 
 #include "fsr_pressure_map/map/map_statistics.h"
+#include "view/small_sheet.h"
 
 namespace fsr::view {
 namespace {
-
-const matrix::Layout kLayout{{7, 10}, 0.010, 0.012};
-
-matrix::Surface uniform(const matrix::Curvature& curvature) {
-  matrix::Surface surface;
-  surface.curvature = {curvature};
-  return surface;
-}
 
 double total(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0);

@@ -8,12 +8,14 @@
 #include <cstdio>
 
 #include "calibration/merge.h"
+#include "calibration/same_tables.h"
 #include "calibration/stages/session/session_rests.h"
 #include "compensation/training_statistics.h"
 #include "fsr_pressure_map/calibration/calibration.h"
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "support/file_complaint.h"
+#include "support/holds.h"
 #include "support/live_rmse.h"
 #include "support/memory_rig.h"
 
@@ -32,8 +34,8 @@ std::vector<dataset::Recording> sessions(std::size_t number, double offset, cons
   return all;
 }
 
-Calibration trained(std::vector<dataset::Recording> recordings, ZeroChoice zero = ZeroChoice::kAuto,
-                    const std::string& model = "grnn", bool history = false) {
+Calibration zeroTrained(std::vector<dataset::Recording> recordings, ZeroChoice zero = ZeroChoice::kAuto,
+                        const std::string& model = "grnn", bool history = false) {
   CalibrationProblem problem{std::move(recordings), {}};
   problem.options.date = "2026-11-22T12:00:00Z";
   problem.options.history = {history, HistoryFamily::kNone};
@@ -52,20 +54,9 @@ double rmseOf(const Calibration& calibration, std::size_t answer) {
   return std::sqrt(square / readings);
 }
 
-void expectSameTables(const Calibration& a, const Calibration& b) {
-  ASSERT_EQ(a.tables.tables.size(), b.tables.tables.size());
-  for (std::size_t i = 0; i < a.tables.tables.size(); ++i) {
-    EXPECT_EQ(a.tables.tables[i].pressure, b.tables.tables[i].pressure);
-    EXPECT_EQ(a.tables.tables[i].deviation, b.tables.tables[i].deviation);
-  }
-  EXPECT_TRUE(a.statistics->cells == b.statistics->cells);
-  EXPECT_EQ(a.regressor.grnn.bandwidth, b.regressor.grnn.bandwidth);
-  EXPECT_EQ(a.scores.whole.rmse_percent.mean, b.scores.whole.rmse_percent.mean);
-}
-
 TEST(SessionZero, TakesOutThePlantedOffsets) {
-  const Calibration planted = trained(sessions(7, kOffset));
-  const Calibration without = trained(sessions(7, 0));
+  const Calibration planted = zeroTrained(sessions(7, kOffset));
+  const Calibration without = zeroTrained(sessions(7, 0));
   EXPECT_EQ(planted.session_zero.tare, SessionTare::kTrained) << planted.scores.session.choice;
   ASSERT_EQ(planted.scores.session.sessions.size(), 7u);
   EXPECT_GT(rmseOf(planted, 0), 10 * rmseOf(without, 0));
@@ -82,7 +73,7 @@ TEST(SessionZero, TakesOutThePlantedOffsets) {
 // 805.03 with a tare that subtracts all that the tables answer at rest, as this version did before the tare
 // became the change since the training. The values are of this version.
 TEST(SessionZero, KeepsTheErrorsOfTablesThatAreSummedAnew) {
-  const Calibration planted = trained(sessions(7, kOffset));
+  const Calibration planted = zeroTrained(sessions(7, kOffset));
   const auto& scores = planted.scores.session.sessions;
   ASSERT_EQ(scores.size(), 7u);
   EXPECT_NEAR(scores[0].rmse[2], 916.04211815989, 1e-6);
@@ -91,14 +82,15 @@ TEST(SessionZero, KeepsTheErrorsOfTablesThatAreSummedAnew) {
 }
 
 TEST(SessionZero, WorksWithAModelOfSingleReadings) {
-  const Calibration planted = trained(sessions(7, kOffset), ZeroChoice::kAuto, "monotone");
+  const Calibration planted = zeroTrained(sessions(7, kOffset), ZeroChoice::kAuto, "monotone");
   ASSERT_TRUE(planted.session_zero.expected()) << planted.scores.session.choice;
   EXPECT_LT(planted.session_zero.rmse, 0.6 * planted.session_zero.rmse_without);
 }
 
 // Everything that existed keeps its numbers.
 TEST(SessionZero, ExpectsNoTareWhereNothingWasPlanted) {
-  const Calibration automatic = trained(sessions(4, 0)), none = trained(sessions(4, 0), ZeroChoice::kNone);
+  const Calibration automatic = zeroTrained(sessions(4, 0)),
+                    none = zeroTrained(sessions(4, 0), ZeroChoice::kNone);
   EXPECT_FALSE(automatic.session_zero.expected());
   EXPECT_EQ(automatic.scores.session.choice.find(
                 "Tare at the start of a session: not expected, since a gain of 2 % is ruled out: it "),
@@ -106,28 +98,24 @@ TEST(SessionZero, ExpectsNoTareWhereNothingWasPlanted) {
       << automatic.scores.session.choice;
   EXPECT_TRUE(none.scores.session.choice.empty());
   expectSameTables(automatic, none);
+  EXPECT_EQ(automatic.scores.whole.rmse_percent.mean, none.scores.whole.rmse_percent.mean);
 }
 
 TEST(SessionZero, ChangesNothingWhereItIsNotAskedFor) {
-  const Calibration none = trained(sessions(3, kOffset), ZeroChoice::kNone);
+  const Calibration none = zeroTrained(sessions(3, kOffset), ZeroChoice::kNone);
   EXPECT_FALSE(none.session_zero.expected());
   EXPECT_TRUE(none.scores.session.sessions.empty());
-  const Calibration with = trained(sessions(3, kOffset));
+  const Calibration with = zeroTrained(sessions(3, kOffset));
   EXPECT_NE(with.tables.tables[0].pressure, none.tables.tables[0].pressure);
 }
 
-std::string refusalOf(std::vector<dataset::Recording> recordings) {
-  try {
-    trained(std::move(recordings), ZeroChoice::kSession);
-  } catch (const settings::InputError& error) {
-    return error.what();
-  }
-  return "accepted";
+std::string refusalOf(const std::vector<dataset::Recording>& recordings) {
+  return test_support::refusal([&] { zeroTrained(recordings, ZeroChoice::kSession); }, "accepted");
 }
 
 // One session tells nothing of others. A tare is expected, since it does no harm where they do not differ.
 TEST(SessionZero, ExpectsATareWithOneSessionThatStartsAtRest) {
-  const Calibration automatic = trained(sessions(1, 0));
+  const Calibration automatic = zeroTrained(sessions(1, 0));
   EXPECT_EQ(automatic.session_zero.tare, SessionTare::kTablesAlone);
   EXPECT_EQ(
       automatic.scores.session.choice,
@@ -136,7 +124,7 @@ TEST(SessionZero, ExpectsATareWithOneSessionThatStartsAtRest) {
       "1 of them with a rest at the start); record a surface in two sessions or more, each starting with "
       "2 s at rest at the lowest pressure.");
   EXPECT_TRUE(std::isnan(automatic.session_zero.rmse));
-  EXPECT_TRUE(trained(sessions(1, 0), ZeroChoice::kSession).session_zero.expected());
+  EXPECT_TRUE(zeroTrained(sessions(1, 0), ZeroChoice::kSession).session_zero.expected());
 }
 
 // Another session of the rig, of which all taxels read `offset` more [Pa].
@@ -151,7 +139,7 @@ TEST(SessionZero, TakesAnOffsetOffAndDoesNoHarmWithoutOne) {
   rig.loop = 0.08;  // so that tables answer too much at rest
   rig.creep = 0.05;
   for (const std::size_t number : {1u, 2u, 4u}) {
-    Calibration tared = trained(sessions(number, 0, rig)), plain = tared;
+    Calibration tared = zeroTrained(sessions(number, 0, rig)), plain = tared;
     tared.session_zero.tare = SessionTare::kTablesAlone;
     plain.session_zero.tare = SessionTare::kNone;
     const auto error = [&](const Calibration& calibration, double offset) {
@@ -174,7 +162,7 @@ TEST(SessionZero, NeedsARestAtTheStart) {
   std::vector<dataset::Recording> recordings = sessions(2, kOffset);
   recordings[1] = withoutItsRest(recordings[1]);
   EXPECT_TRUE(restAtStart(recordings[1], 0).empty());
-  EXPECT_NE(trained(recordings).scores.session.choice.find("(2 sessions, 1 of them with a rest"),
+  EXPECT_NE(zeroTrained(recordings).scores.session.choice.find("(2 sessions, 1 of them with a rest"),
             std::string::npos);
   recordings[0] = withoutItsRest(recordings[0]);
   EXPECT_EQ(refusalOf(recordings)
@@ -183,7 +171,7 @@ TEST(SessionZero, NeedsARestAtTheStart) {
                       "at rest: the chamber is at 300.0 kPa, which is a load; record"),
             0u)
       << refusalOf(recordings);
-  EXPECT_FALSE(trained(recordings).session_zero.expected());
+  EXPECT_FALSE(zeroTrained(recordings).session_zero.expected());
 }
 
 TEST(SessionZero, TakesTheWindowOfATare) {
@@ -201,6 +189,7 @@ TEST(SessionZero, GivesTheSameOnAnyNumberOfThreads) {
   problem.options.threads = 3;
   const Calibration three = calibrate(problem);
   expectSameTables(one, three);
+  EXPECT_EQ(one.scores.whole.rmse_percent.mean, three.scores.whole.rmse_percent.mean);
   EXPECT_EQ(one.session_zero.rmse, three.session_zero.rmse);
 }
 
@@ -208,9 +197,9 @@ TEST(SessionZero, GivesTheSameOnAnyNumberOfThreads) {
 TEST(SessionZero, LeavesTheMemoryToTheHistory) {
   MemoryRig rig;
   rig.loop = 0.08;
-  const Calibration both = trained(sessions(5, kOffset, rig), ZeroChoice::kSession, "grnn", true);
-  const Calibration history = trained(sessions(5, kOffset, rig), ZeroChoice::kNone, "grnn", true);
-  const Calibration zero = trained(sessions(5, kOffset, rig), ZeroChoice::kSession);
+  const Calibration both = zeroTrained(sessions(5, kOffset, rig), ZeroChoice::kSession, "grnn", true);
+  const Calibration history = zeroTrained(sessions(5, kOffset, rig), ZeroChoice::kNone, "grnn", true);
+  const Calibration zero = zeroTrained(sessions(5, kOffset, rig), ZeroChoice::kSession);
   ASSERT_TRUE(both.history.present()) << both.scores.history.choice;
   const auto error = [&](const Calibration& calibration) {
     return test_support::liveRmse(calibration, {memorySession(6, kOffset, rig)});
@@ -226,7 +215,7 @@ class SessionZeroFile : public testing::Test {
 };
 
 TEST_F(SessionZeroFile, KeepsTheExpectedTareAndItsScores) {
-  const Calibration calibration = trained(sessions(4, kOffset));
+  const Calibration calibration = zeroTrained(sessions(4, kOffset));
   saveCalibration(calibration, path_);
   const Calibration loaded = loadCalibration(path_);
   EXPECT_EQ(loaded.session_zero.tare, SessionTare::kTrained);
@@ -242,19 +231,19 @@ TEST_F(SessionZeroFile, KeepsTheExpectedTareAndItsScores) {
 }
 
 TEST_F(SessionZeroFile, ExpectsNothingWithoutIt) {
-  saveCalibration(trained(sessions(2, kOffset), ZeroChoice::kNone), path_);
+  saveCalibration(zeroTrained(sessions(2, kOffset), ZeroChoice::kNone), path_);
   EXPECT_FALSE(loadCalibration(path_).session_zero.expected());
   EXPECT_TRUE(loadCalibration(path_).scores.session.choice.empty());
 }
 
 TEST_F(SessionZeroFile, IsRefusedWithAnErrorThatCannotBe) {
-  EXPECT_EQ(test_support::fileComplaint(trained(sessions(4, kOffset)), path_,
+  EXPECT_EQ(test_support::fileComplaint(zeroTrained(sessions(4, kOffset)), path_,
                                         [](Calibration& c) { c.session_zero.rmse = -1; }),
             "its /session/rmse has a value of -1, but all must be 0 to 1e+09");
 }
 
 TEST_F(SessionZeroFile, CannotBeMerged) {
-  const Calibration calibration = trained(sessions(4, kOffset));
+  const Calibration calibration = zeroTrained(sessions(4, kOffset));
   try {
     mergeCalibrations({{"a.h5", calibration}, {"b.h5", calibration}}, {});
     FAIL();

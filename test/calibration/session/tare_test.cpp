@@ -10,6 +10,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "support/allocation_guard.h"
+#include "support/holds.h"
 
 namespace fsr::calibration {
 namespace {
@@ -35,12 +36,7 @@ TareMeasurement measured(const std::function<float(int)>& pressure, const TareOp
 }
 
 std::string refusalOf(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const settings::InputError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return test_support::refusal(action, "accepted");
 }
 
 Tare someTare() {

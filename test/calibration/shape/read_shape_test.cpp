@@ -5,10 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <random>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "support/holds.h"
 #include "support/planted_shape.h"
 
 namespace fsr::calibration {
@@ -16,7 +16,6 @@ namespace {
 
 using test_support::PlantedShape;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kBadFit = 1e-3;
 
 class ReadShape : public testing::Test {
@@ -34,12 +33,7 @@ class ReadShape : public testing::Test {
   std::size_t taxels() const { return sheet_.size.taxels(); }
 
   std::string complaint(const RestReading& rest) const {
-    try {
-      reader_.estimate(rest);
-    } catch (const settings::InputError& error) {
-      return error.what();
-    }
-    return "accepted";
+    return test_support::refusal([&] { reader_.estimate(rest); }, "accepted");
   }
 
   const PlantedShape sheet_{};
@@ -112,13 +106,13 @@ TEST_F(ReadShape, FitsAnotherSheetBadly) {
 
 TEST_F(ReadShape, DoesWithoutSomeTaxelsButNotWithoutHalf) {
   RestReading rest = mountOn(9);
-  for (std::size_t t = 0; t < 9; ++t) rest.reading[t] = kNaN;
+  for (std::size_t t = 0; t < 9; ++t) rest.reading[t] = NAN;
   const ShapeEstimate found = reader_.estimate(rest);
   EXPECT_EQ(found.taxels, 11u);
   EXPECT_NEAR(found.curvature, 9, 4 * found.deviation);
-  rest.reading[9] = kNaN;
+  rest.reading[9] = NAN;
   EXPECT_EQ(complaint(rest), "accepted") << "half of them";
-  rest.reading[10] = kNaN;
+  rest.reading[10] = NAN;
   EXPECT_EQ(complaint(rest), "only 9 of 20 taxels have a reading, too few to tell how the sheet lies");
   EXPECT_EQ(complaint({{1, 2}, {0, 0}}), "the sheet has 2 taxels, but its model of the shape has 20");
 }

@@ -23,7 +23,7 @@ namespace {
 using Recordings = std::vector<dataset::Recording>;
 
 // 4 x 5 taxels, each mounted anew for each bag.
-struct Rig {
+struct MountedRig {
   std::vector<double> radii = {0, 0.20, 0.11, 0.07, 0.05};  // 0 = flat [m]
   int mounts = 3;                                           // of each surface
   double offset = 1e3;                                      // of a mount [Pa]
@@ -37,7 +37,7 @@ std::string nameOf(double radius) {
   return radius == 0 ? "flat" : "cylinder_" + std::to_string(int(std::lround(100 * radius))) + "cm";
 }
 
-Recordings recordingsOf(const Rig& rig) {
+Recordings recordingsOf(const MountedRig& rig) {
   std::string session;
   for (int mount = 0; mount < rig.mounts; ++mount) {
     for (const double radius : rig.radii) {
@@ -63,7 +63,7 @@ Recordings recordingsOf(const Rig& rig) {
       simulation::readSimulation(settings::Settings::fromText(text, "sheet.yaml")));
 }
 
-Calibration trained(Recordings recordings, const std::string& model = "monotone", unsigned threads = 0) {
+Calibration shapeTrained(Recordings recordings, const std::string& model = "monotone", unsigned threads = 0) {
   CalibrationProblem problem{std::move(recordings), {}};
   problem.options.threads = threads;
   problem.options.date = "2026-11-23T12:00:00Z";
@@ -85,9 +85,9 @@ std::vector<std::string> complaints(const Calibration& calibration) {
 
 TEST(ShapeTraining, LearnsTheSurfacesAndSaysNothingAgainstSoundMounts) {
   for (unsigned seed = 1; seed <= 3; ++seed) {
-    Rig rig;
+    MountedRig rig;
     rig.seed = seed;
-    const Calibration calibration = trained(recordingsOf(rig));
+    const Calibration calibration = shapeTrained(recordingsOf(rig));
     const ShapeModel& shape = calibration.shape;
     ASSERT_TRUE(shape.present()) << shape.missing;
     EXPECT_EQ(shape.surfaces, (std::vector<std::string>{"flat", "cylinder_20cm", "cylinder_11cm",
@@ -120,7 +120,7 @@ TEST(ShapeTraining, NamesTheBagWhoseSurfaceIsDeclaredWronglyAndNoOther) {
                              Wrong{9, 0.20, "its surface is 20.0 cm"}}) {
     Recordings recordings = recordingsOf({});
     declare(recordings, wrong.bag, wrong.declared);
-    const std::vector<std::string> found = complaints(trained(recordings));
+    const std::vector<std::string> found = complaints(shapeTrained(recordings));
     ASSERT_EQ(found.size(), 1u) << "bag " << wrong.bag << (found.empty() ? "" : found[1]);
     EXPECT_EQ(found.front().find(recordings[wrong.bag].name + ", "), 0u) << found.front();
     EXPECT_NE(found.front().find(wrong.said), std::string::npos) << found.front();
@@ -129,18 +129,18 @@ TEST(ShapeTraining, NamesTheBagWhoseSurfaceIsDeclaredWronglyAndNoOther) {
 
 // Two wrong mounts: the second is found after the first was left out.
 TEST(ShapeTraining, NamesTheSameBagsOnAnyNumberOfThreads) {
-  Rig rig;
+  MountedRig rig;
   rig.mounts = 4;
   Recordings recordings = recordingsOf(rig);
   declare(recordings, 5, 0.05);
   declare(recordings, 14, 0.20);
-  const std::vector<std::string> one = complaints(trained(recordings, "monotone", 1));
+  const std::vector<std::string> one = complaints(shapeTrained(recordings, "monotone", 1));
   EXPECT_EQ(one.size(), 2u);
-  EXPECT_EQ(complaints(trained(recordings, "monotone", 3)), one);
+  EXPECT_EQ(complaints(shapeTrained(recordings, "monotone", 3)), one);
 }
 
 std::string missing(const Recordings& recordings) {
-  return trained(recordings).shape.missing;
+  return shapeTrained(recordings).shape.missing;
 }
 
 // Of the rest at its start, a second is under load.
@@ -149,17 +149,17 @@ void startLoaded(dataset::Recording& recording) {
 }
 
 TEST(ShapeTraining, SaysWhatIsMissing) {
-  Rig two;
+  MountedRig two;
   two.radii = {0, 0.07};
   EXPECT_EQ(missing(recordingsOf(two)),
             "the bags hold a rest before the first load on 2 surfaces of one curvature, but three are needed "
             "to learn how the sheet rests");
-  Rig once;
+  MountedRig once;
   once.mounts = 1;
   EXPECT_EQ(missing(recordingsOf(once)),
             "the scatter between mounts is not known: 0 further mounts of a surface can be used, but three "
             "are needed; mount surfaces again");
-  Rig small;
+  MountedRig small;
   small.rows = 1;
   Recordings masked = recordingsOf(small);
   for (dataset::Recording& recording : masked) recording.mask = {0, 1, 0, 1, 0};
@@ -171,7 +171,7 @@ TEST(ShapeTraining, SaysWhatIsMissing) {
 
 // Five surfaces on two mounts each: five further mounts, of which three do not begin at rest.
 TEST(ShapeTraining, SaysWhyMountsOfTheBagsDoNotCount) {
-  Rig twice;
+  MountedRig twice;
   twice.mounts = 2;
   Recordings recordings = recordingsOf(twice);
   for (const std::size_t bag : {5u, 6u, 7u}) startLoaded(recordings[bag]);
@@ -196,16 +196,16 @@ TEST(ShapeTraining, LeavesOutSurfacesWhoseCurvatureChangesAlongTheSheet) {
     surface.curvature.assign(20, {1 / 0.07, 0, 0});
     for (std::size_t t = 0; t < 20; ++t) surface.curvature[t].x = 1 / 0.05 - 0.3 * double(t);
   }
-  const Calibration calibration = trained(recordings);
+  const Calibration calibration = shapeTrained(recordings);
   EXPECT_EQ(calibration.shape.surfaces.size(), 4u);
   EXPECT_TRUE(complaints(calibration).empty()) << complaints(calibration).front();
 }
 
 TEST(ShapeTraining, GivesTheSameForBagsInAnotherOrder) {
   Recordings recordings = recordingsOf({});
-  const ShapeModel shape = trained(recordings).shape;
+  const ShapeModel shape = shapeTrained(recordings).shape;
   std::reverse(recordings.begin(), recordings.end());
-  const ShapeModel reversed = trained(recordings).shape;
+  const ShapeModel reversed = shapeTrained(recordings).shape;
   EXPECT_EQ(reversed.curvature, shape.curvature);
   ASSERT_EQ(reversed.rest.size(), shape.rest.size());
   for (std::size_t i = 0; i < shape.rest.size(); ++i) EXPECT_NEAR(reversed.rest[i], shape.rest[i], 1e-6);
@@ -213,10 +213,10 @@ TEST(ShapeTraining, GivesTheSameForBagsInAnotherOrder) {
 }
 
 TEST(ShapeTraining, IsNotPossibleByMerging) {
-  Rig rig;
+  MountedRig rig;
   rig.radii = {0, 0.07};
   rig.mounts = 1;
-  const Calibration calibration = trained(recordingsOf(rig), "linear");
+  const Calibration calibration = shapeTrained(recordingsOf(rig), "linear");
   Calibration other = calibration;
   for (auto& bag : other.provenance.bags) std::reverse(bag.sha256.begin(), bag.sha256.end());
   const Calibration merged = mergeCalibrations({{"a.h5", calibration}, {"b.h5", other}}, {});
@@ -229,13 +229,13 @@ TEST(ShapeTraining, IsNotPossibleByMerging) {
 class CheckShapes : public testing::Test {
  protected:
   static const Calibration& calibration() {
-    static const Calibration result = trained(recordingsOf({}));
+    static const Calibration result = shapeTrained(recordingsOf({}));
     return result;
   }
   // Further mounts of the sheet of the calibration; the first 15 are those of training.
   static const Recordings& fresh() {
     static const Recordings result = [] {
-      Rig rig;
+      MountedRig rig;
       rig.mounts = 5;
       Recordings all = recordingsOf(rig);
       all.erase(all.begin(), all.begin() + 15);
@@ -285,7 +285,7 @@ TEST_F(CheckShapes, DisagreesWithASurfaceThatIsDeclaredWrongly) {
 }
 
 TEST_F(CheckShapes, RefusesARecordingOfAnotherMatrix) {
-  Rig small;
+  MountedRig small;
   small.rows = 3;
   small.mounts = 1;
   try {
@@ -333,7 +333,7 @@ TEST_F(CheckShapes, BlamesNoSurfaceForALoadOnHalfTheSheet) {
 }
 
 TEST_F(CheckShapes, AbstainsOnAnotherSheet) {
-  Rig other;
+  MountedRig other;
   other.seed = 9;
   other.mounts = 1;
   for (const dataset::Recording& recording : recordingsOf(other)) {

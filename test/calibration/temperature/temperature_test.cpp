@@ -14,21 +14,19 @@
 namespace fsr::calibration {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-TemperatureModel model() {
+TemperatureModel warmModel() {
   return {-0.004, 25, 60, 20, 30, 3};
 }
 
 TEST(TemperatureModel, IsAFactor) {
   EXPECT_FALSE(TemperatureModel{}.present());
-  EXPECT_DOUBLE_EQ(temperatureFactor(model(), 30), 0.98);
-  EXPECT_DOUBLE_EQ(temperatureFactor(model(), -1e9), 2);
-  EXPECT_DOUBLE_EQ(temperatureFactor(model(), 1e9), 0.5);
+  EXPECT_DOUBLE_EQ(temperatureFactor(warmModel(), 30), 0.98);
+  EXPECT_DOUBLE_EQ(temperatureFactor(warmModel(), -1e9), 2);
+  EXPECT_DOUBLE_EQ(temperatureFactor(warmModel(), 1e9), 0.5);
 }
 
 TEST(TemperatureState, StartsAtTheFirstTemperatureAndFollows) {
-  TemperatureState state(model());
+  TemperatureState state(warmModel());
   state.setTemperature(20, 5);
   state.beginScan(0);
   EXPECT_DOUBLE_EQ(state.factor(), 1.02);
@@ -41,9 +39,9 @@ TEST(TemperatureState, StartsAtTheFirstTemperatureAndFollows) {
 }
 
 TEST(TemperatureState, KeepsTheAnswerOfAnUnknownTemperature) {
-  TemperatureState state(model());
+  TemperatureState state(warmModel());
   float pressure = 100e3, deviation = 500;
-  for (const double temperature : {kNaN, 30.0, kNaN}) {
+  for (const double temperature : {double(NAN), 30.0, double(NAN)}) {
     state.setTemperature(temperature, 5);
     state.beginScan(1);
     pressure = 100e3, deviation = 500;
@@ -61,9 +59,9 @@ TEST(TemperatureState, KeepsTheAnswerOfAnUnknownTemperature) {
 // Whatever thermometer and clock say, the answer stays between half and twice the pressure.
 TEST(TemperatureState, IsBoundedForAnyInput) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  const double any[] = {kNaN, kInfinity, -kInfinity, 1e308, -1e308, 0, 25, -300, 85, 1e-300};
+  const double any[] = {double(NAN), kInfinity, -kInfinity, 1e308, -1e308, 0, 25, -300, 85, 1e-300};
   for (const double s : {-1.0, -0.004, 1.0}) {
-    TemperatureModel own = model();
+    TemperatureModel own = warmModel();
     own.sensitivity = s;
     TemperatureState state(own);
     std::mt19937 random(3);
@@ -79,7 +77,7 @@ TEST(TemperatureState, IsBoundedForAnyInput) {
 }
 
 TEST(TemperatureState, MakesNoInfinitePressureAndKeepsNoReading) {
-  TemperatureModel own = model();
+  TemperatureModel own = warmModel();
   own.sensitivity = 1;
   TemperatureState state(own);
   state.setTemperature(30, 0);
@@ -90,7 +88,7 @@ TEST(TemperatureState, MakesNoInfinitePressureAndKeepsNoReading) {
 }
 
 TEST(TemperatureState, AllocatesNothing) {
-  TemperatureState state(model());
+  TemperatureState state(warmModel());
   const test_support::AllocationGuard guard;
   for (int i = 0; i < 100; ++i) {
     float pressure = 100e3, deviation = 500;

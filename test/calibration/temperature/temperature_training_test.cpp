@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "calibration/merge.h"
+#include "calibration/same_tables.h"
 #include "fsr_pressure_map/calibration/calibration.h"
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "fsr_pressure_map/calibration/calibrator.h"
@@ -28,7 +29,7 @@ using Recordings = std::vector<dataset::Recording>;
 
 // A straight sensor, three taxels. Its readings are those of the simulator; the chamber runs two paces,
 // dwells and peaks in each of the bags.
-struct Rig {
+struct WarmRig {
   std::string room =
       "[{time: 0, temperature: 21}, {time: 130, temperature: 21}, {time: 190, temperature: 28}, "
       "{time: 800, temperature: 28}, {time: 860, temperature: 22}, {time: 1450, temperature: 22}, "
@@ -41,7 +42,7 @@ struct Rig {
   bool bent = false;  // each bag on another surface
 };
 
-Recordings recordingsOf(const Rig& rig) {
+Recordings recordingsOf(const WarmRig& rig) {
   std::string session;
   for (int k = 0; k < rig.bags; ++k)
     session += std::string(k == 0 ? "" : ", ") +
@@ -71,14 +72,15 @@ Recordings recordingsOf(const Rig& rig) {
       simulation::readSimulation(settings::Settings::fromText(text, "warm.yaml")));
 }
 
-Rig warmRig(double coefficient = 0.0036, double lag = 120) {
-  Rig rig;
+WarmRig warmRig(double coefficient = 0.0036, double lag = 120) {
+  WarmRig rig;
   rig.effects =
       "  temperature: {coefficient: " + std::to_string(coefficient) + ", lag: " + std::to_string(lag) + "}\n";
   return rig;
 }
 
-Calibration trained(const Recordings& recordings, const HistoryChoice& choice = {}, bool temperature = true) {
+Calibration warmTrained(const Recordings& recordings, const HistoryChoice& choice = {},
+                        bool temperature = true) {
   CalibrationProblem problem{recordings, {}};
   problem.options.date = "2026-11-22T12:00:00Z";
   problem.options.history = choice;
@@ -87,7 +89,7 @@ Calibration trained(const Recordings& recordings, const HistoryChoice& choice = 
 }
 
 // The room of another day.
-Recordings another(Rig rig) {
+Recordings another(WarmRig rig) {
   rig.room = "[{time: 0, temperature: 28}, {time: 300, temperature: 28}, {time: 360, temperature: 22}]";
   rig.bags = 1;
   rig.seed += 100;
@@ -102,9 +104,9 @@ double errorOn(const Calibration& calibration, const Recordings& recordings) {
 // the bags.
 TEST(TemperatureTraining, FindsSensitivityAndLagOfTheRig) {
   for (const double lag : {1.0, 30.0, 120.0}) {
-    const Rig rig = warmRig(0.0036, lag);
+    const WarmRig rig = warmRig(0.0036, lag);
     const Recordings recordings = recordingsOf(rig);
-    const Calibration with = trained(recordings), without = trained(recordings, {}, false);
+    const Calibration with = warmTrained(recordings), without = warmTrained(recordings, {}, false);
     EXPECT_NEAR(with.temperature.sensitivity, -0.0035, 0.0002) << with.scores.temperature.choice;
     EXPECT_EQ(with.temperature.lag, lag == 1 ? 0 : lag);
     EXPECT_NEAR(with.temperature.low, 21, 0.1);
@@ -118,9 +120,9 @@ TEST(TemperatureTraining, FindsSensitivityAndLagOfTheRig) {
 
 // Filling the chamber heats the gas by up to 6 K: what loop and creep do is not temperature.
 TEST(TemperatureTraining, FindsTheSameInAChamberThatHeatsItsGas) {
-  Rig rig = warmRig(-0.0036, 30);
+  WarmRig rig = warmRig(-0.0036, 30);
   rig.heating = 1e-5;
-  const Calibration calibration = trained(recordingsOf(rig));
+  const Calibration calibration = warmTrained(recordingsOf(rig));
   EXPECT_NEAR(calibration.temperature.sensitivity, 0.0036, 0.0003) << calibration.scores.temperature.choice;
   EXPECT_EQ(calibration.temperature.lag, 30);
 }
@@ -129,11 +131,11 @@ TEST(TemperatureTraining, ChoosesNoneWhereNothingIsHidden) {
   for (const char* effects : {"", "  hysteresis: {loop_width: 0.07}\n  creep: {per_decade: 0.035}\n",
                               "  drift: {rate_per_hour: 0.02}\n"}) {
     for (unsigned seed = 1; seed <= 3; ++seed) {
-      Rig rig;
+      WarmRig rig;
       rig.effects = effects;
       rig.heating = 1e-5;
       rig.seed = seed;
-      const Calibration calibration = trained(recordingsOf(rig));
+      const Calibration calibration = warmTrained(recordingsOf(rig));
       EXPECT_FALSE(calibration.temperature.present()) << effects << calibration.scores.temperature.choice;
       EXPECT_EQ(calibration.scores.temperature.choice.find("Temperature: none, since "), 0u);
     }
@@ -141,31 +143,21 @@ TEST(TemperatureTraining, ChoosesNoneWhereNothingIsHidden) {
 }
 
 TEST(TemperatureTraining, SaysInOneLineThatTheTemperatureDidNotChange) {
-  Rig rig = warmRig();
+  WarmRig rig = warmRig();
   rig.room = "23";
   rig.bags = 1;
-  EXPECT_EQ(trained(recordingsOf(rig)).scores.temperature.choice,
+  EXPECT_EQ(warmTrained(recordingsOf(rig)).scores.temperature.choice,
             "Temperature: none, since the mean temperatures of the cycles differ by 0.5 K or less.");
-}
-
-void expectSameTables(const Calibration& a, const Calibration& b) {
-  ASSERT_EQ(a.tables.tables.size(), b.tables.tables.size());
-  for (std::size_t i = 0; i < a.tables.tables.size(); ++i) {
-    EXPECT_EQ(a.tables.tables[i].pressure, b.tables.tables[i].pressure);
-    EXPECT_EQ(a.tables.tables[i].deviation, b.tables.tables[i].deviation);
-  }
-  EXPECT_EQ(a.history.play_weight, b.history.play_weight);
-  EXPECT_EQ(a.history.correction, b.history.correction);
 }
 
 // Everything that existed keeps its numbers without a thermometer, and where no model is asked for or chosen.
 TEST(TemperatureTraining, ChangesNothingWhereItIsNotChosen) {
-  Rig rig = warmRig();
+  WarmRig rig = warmRig();
   rig.effects += "  hysteresis: {loop_width: 0.05}\n";
   const Recordings recordings = recordingsOf(rig);
   Recordings without = recordings;
   for (dataset::Recording& recording : without) recording.temperature.clear();
-  const Calibration none = trained(recordings, {}, false), bare = trained(without);
+  const Calibration none = warmTrained(recordings, {}, false), bare = warmTrained(without);
   EXPECT_TRUE(none.history.present());
   EXPECT_TRUE(none.scores.temperature.choice.empty());
   EXPECT_TRUE(bare.scores.temperature.choice.empty());
@@ -173,7 +165,7 @@ TEST(TemperatureTraining, ChangesNothingWhereItIsNotChosen) {
   expectSameTables(none, bare);
   rig.room = "23";
   const Recordings constant = recordingsOf(rig);
-  expectSameTables(trained(constant), trained(constant, {}, false));
+  expectSameTables(warmTrained(constant), warmTrained(constant, {}, false));
 }
 
 TEST(TemperatureTraining, GivesTheSameOnAnyNumberOfThreads) {
@@ -188,22 +180,22 @@ TEST(TemperatureTraining, GivesTheSameOnAnyNumberOfThreads) {
 }
 
 TEST(TemperatureTraining, DoesNotNeedASecondProtocolOrAHistory) {
-  Rig rig = warmRig(0.0036, 30);
-  const Calibration alone = trained(recordingsOf(rig), {false, HistoryFamily::kNone});
+  WarmRig rig = warmRig(0.0036, 30);
+  const Calibration alone = warmTrained(recordingsOf(rig), {false, HistoryFamily::kNone});
   EXPECT_FALSE(alone.history.present());
   EXPECT_TRUE(alone.temperature.present());
   rig.one_protocol = true;
-  const Calibration one = trained(recordingsOf(rig));
+  const Calibration one = warmTrained(recordingsOf(rig));
   EXPECT_FALSE(one.history.present());
   EXPECT_NEAR(one.temperature.sensitivity, -0.0035, 0.0003) << one.scores.temperature.choice;
   EXPECT_EQ(one.scores.temperature.groups.size(), 3u);
 }
 
 TEST(TemperatureTraining, NeedsSomethingThatCanBeLeftOut) {
-  Rig rig = warmRig();
+  WarmRig rig = warmRig();
   rig.one_protocol = true;
   rig.bags = 1;
-  const Calibration calibration = trained(recordingsOf(rig));
+  const Calibration calibration = warmTrained(recordingsOf(rig));
   EXPECT_FALSE(calibration.temperature.present());
   EXPECT_NE(calibration.scores.temperature.choice.find("no protocol and no recording can be left out"),
             std::string::npos)
@@ -212,9 +204,9 @@ TEST(TemperatureTraining, NeedsSomethingThatCanBeLeftOut) {
 
 // Each bag is another surface: protocols alone can be left out.
 TEST(TemperatureTraining, LeavesOutProtocolsWhereEachSurfaceHasOneBag) {
-  Rig rig = warmRig(0.0036, 30);
+  WarmRig rig = warmRig(0.0036, 30);
   rig.bent = true;
-  const Calibration calibration = trained(recordingsOf(rig));
+  const Calibration calibration = warmTrained(recordingsOf(rig));
   EXPECT_NEAR(calibration.temperature.sensitivity, -0.0035, 0.0004) << calibration.scores.temperature.choice;
   EXPECT_EQ(calibration.scores.temperature.groups.size(), 4u);
 }
@@ -226,7 +218,7 @@ class TemperatureFile : public testing::Test {
 };
 
 TEST_F(TemperatureFile, KeepsTheModelAndItsScores) {
-  const Calibration calibration = trained(recordingsOf(warmRig()));
+  const Calibration calibration = warmTrained(recordingsOf(warmRig()));
   saveCalibration(calibration, path_);
   const Calibration loaded = loadCalibration(path_, CalibrationParts::kAll);
   const TemperatureModel &own = calibration.temperature, &read = loaded.temperature;
@@ -253,14 +245,14 @@ TEST_F(TemperatureFile, HasASchemaOfItsOwn) {
     std::getline(file, line);
     return line.substr(line.find("schema="), 8);
   };
-  Calibration calibration = trained(recordingsOf(warmRig()), {false, HistoryFamily::kNone});
+  Calibration calibration = warmTrained(recordingsOf(warmRig()), {false, HistoryFamily::kNone});
   EXPECT_EQ(schema(calibration), "schema=3");
   calibration.temperature = {};
   EXPECT_EQ(schema(calibration), "schema=2");
 }
 
 TEST_F(TemperatureFile, IsRefusedWhereItsModelCannotBeUsed) {
-  const Calibration whole = trained(recordingsOf(warmRig()));
+  const Calibration whole = warmTrained(recordingsOf(warmRig()));
   const auto complaint = [&](const std::function<void(TemperatureModel&)>& spoil) {
     return test_support::fileComplaint(whole, path_, [&](Calibration& c) { spoil(c.temperature); });
   };
@@ -279,7 +271,7 @@ class LiveTemperature : public testing::Test {
  protected:
   static const Calibration& calibration() {
     static const Calibration result =
-        trained(recordingsOf(warmRig(0.0036, 120)), {false, HistoryFamily::kNone});
+        warmTrained(recordingsOf(warmRig(0.0036, 120)), {false, HistoryFamily::kNone});
     return result;
   }
   void map(double time, double temperature) {

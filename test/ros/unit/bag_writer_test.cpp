@@ -28,7 +28,7 @@ class BagFile : public test_support::FolderTest {
   std::string path_;
 };
 
-fsr::dataset::Recording twoSurfaces() {
+fsr::dataset::Recording oddCycles() {
   test_support::SyntheticRig rig;
   rig.surfaces = {{"flat", 0.0}, {"cylinder_7cm", 14.25}};
   rig.cycles = 2;
@@ -51,7 +51,7 @@ std::vector<Message> messages(const rosbag::Bag& bag, const std::string& topic) 
 }
 
 TEST_F(BagFile, SaysOnceASecondWhatTheMatrixIsAndLiesOn) {
-  const fsr::dataset::Recording recording = twoSurfaces();  // 412 scans at 10 Hz
+  const fsr::dataset::Recording recording = oddCycles();  // 412 scans at 10 Hz
   BagOptions options;
   options.session.session_id = "s1";
   options.reference_voltage = 2.5;
@@ -83,7 +83,7 @@ TEST_F(BagFile, LeavesNothingBehindWithoutClose) {
 }
 
 TEST_F(BagFile, CannotHoldTheYear1970AndSaysSo) {
-  fsr::dataset::Recording recording = twoSurfaces();
+  fsr::dataset::Recording recording = oddCycles();
   recording.start_ns = 0;
   EXPECT_TRUE(
       test_support::holds(test_support::refusal([&] { writeBag(path_, recording); }), {"1_flat.bag"}));
@@ -93,12 +93,12 @@ TEST_F(BagFile, CannotHoldTheYear1970AndSaysSo) {
 // The destructor of such a rosbag::Bag throws again, which would end the process.
 TEST_F(BagFile, SaysThatTheDiskIsFullAndLeavesNothingBehind) {
   const test_support::FileSizeLimit limit(6000);
-  EXPECT_THROW(writeBag(path_, twoSurfaces()), fsr::settings::InputError);
+  EXPECT_THROW(writeBag(path_, oddCycles()), fsr::settings::InputError);
   EXPECT_EQ(filesLeft(), 0u);
 }
 
 TEST_F(BagFile, CannotBeMadeInAFolderThatIsNotThere) {
-  EXPECT_THROW(writeBag((folder_ / "no/1.bag").string(), twoSurfaces()), fsr::settings::InputError);
+  EXPECT_THROW(writeBag((folder_ / "no/1.bag").string(), oddCycles()), fsr::settings::InputError);
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "session/conductor.h"
 #include "session/plan_file.h"
 #include "session/session_files.h"
+#include "support/content_of.h"
 #include "support/source_dir.h"
 #include "support/tool_run.h"
 
@@ -54,10 +55,7 @@ class DayReportTool : public testing::Test {
     said_ = run.said();
     return run.status;
   }
-  std::string page() const {
-    std::ifstream file(path("day_report.html"));
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
+  std::string page() const { return test_support::contentOf(path("day_report.html")); }
   static bool has(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
   }

@@ -10,6 +10,7 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "report/verdict_file.h"
 #include "ros/tools/tool_options.h"
+#include "support/content_of.h"
 #include "support/example_discrepancy.h"
 #include "support/folder_test.h"
 #include "support/holds.h"
@@ -27,10 +28,7 @@ class DiscrepancyFiles : public test_support::FolderTest {
         fsr::simulation::readSimulationFile(test_support::sourceDir() + "/config/simulation/core.yaml");
   }
 
-  std::string text(const std::string& name) const {
-    std::ifstream file(folder_ / name);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
+  std::string text(const std::string& name) const { return test_support::contentOf(folder_ / name); }
   /// Draws the report; returns the error, or "".
   std::string draw() const {
     return test_support::refusal([&] {

@@ -14,6 +14,7 @@
 #include "report/verdict_file.h"
 #include "ros/bags/bag_writer.h"
 #include "simulation/settings_text.h"
+#include "support/content_of.h"
 #include "support/folder_test.h"
 #include "support/source_dir.h"
 #include "support/synthetic_recording.h"
@@ -95,8 +96,7 @@ TEST_F(DiscrepancyTool, WritesNoAbsolutePathAndRecomputesTheGapFromAFolder) {
   expectSaid(said, {"simulate --gap " + path("out/verdict.yaml") + " --drive " + path("session/1_flat.bag")});
   for (const auto& entry : fs::recursive_directory_iterator(folder_ / "out")) {
     if (!entry.is_regular_file()) continue;
-    std::ifstream file(entry.path());
-    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    const std::string text = test_support::contentOf(entry.path());
     EXPECT_EQ(text.find(folder_.parent_path().string()), std::string::npos) << entry.path();
     if (entry.path().filename() == "verdict.yaml")
       expectSaid(text, {"simulate --gap out/verdict.yaml --drive 1_flat.bag 2_bend.bag"});
@@ -235,8 +235,7 @@ TEST_F(DiscrepancyTool, ConfirmsByBagsThatAreNewWhatItPredicted) {
              {"Not confirmed: ", "Written: " + path("out/confirmation_2.yaml")});
   for (const auto& [name, passed] :
        {std::pair{"confirmation.yaml", "passed: true"}, std::pair{"confirmation_2.yaml", "passed: false"}}) {
-    std::ifstream file(folder_ / "out" / name);
-    expectSaid({std::istreambuf_iterator<char>(file), {}}, {passed});
+    expectSaid(test_support::contentOf(folder_ / "out" / name), {passed});
   }
 }
 

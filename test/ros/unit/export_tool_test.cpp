@@ -21,6 +21,7 @@
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "ros/bags/bag_writer.h"
+#include "support/content_of.h"
 #include "support/file_size_limit.h"
 #include "support/line_format.h"
 #include "support/program_output.h"
@@ -171,8 +172,7 @@ TEST_F(ExportTool, TakesATimeRangeARateAndSeveralBags) {
 
 TEST_F(ExportTool, WritesTekscanFrames) {
   run({bag_, "--to", "tekscan", "--output", folder_.path("a.asf")});
-  std::ifstream file(folder_.path("a.asf"));
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const std::string text = test_support::contentOf(folder_.path("a.asf"));
   EXPECT_NE(text.find("\nEND_FRAME 1000 "), std::string::npos);
   EXPECT_NE(text.find("SECONDS_PER_FRAME 0.1000"), std::string::npos);
 }

@@ -15,6 +15,7 @@
 #include "ros/bags/bag_walk.h"
 #include "ros/recording/bag_sink.h"
 #include "ros/tools/tools.h"
+#include "support/content_of.h"
 #include "support/holds.h"
 #include "support/pty.h"
 #include "support/small_disk.h"
@@ -68,11 +69,6 @@ std::uint64_t soundMessages(const std::string& path) {
   return static_cast<std::uint64_t>(number);
 }
 
-std::string bytesOf(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 std::string refusal(const std::string& path) {
   return test_support::refusal([&] { rescueBag(path); });
 }
@@ -86,7 +82,7 @@ class RescueBag : public testing::Test {
     bag.setChunkThreshold(1024);
     for (int i = 0; i < 300; ++i) text(i)(bag);
     bag.close();
-    whole_ = bytesOf(folder_.path("whole.bag"));
+    whole_ = test_support::contentOf(folder_.path("whole.bag"));
   }
   std::string cut(std::size_t size) const {
     std::ofstream(active_, std::ios::binary | std::ios::trunc) << whole_.substr(0, size);
@@ -137,7 +133,7 @@ TEST_F(RescueBag, CutsZerosOffTheEnd) {
 TEST_F(RescueBag, OnlyRenamesABagThatIsComplete) {
   record();
   EXPECT_EQ(rescueBag(cut(whole_.size())).messages, 300u);
-  EXPECT_EQ(bytesOf(closed_), whole_);
+  EXPECT_EQ(test_support::contentOf(closed_), whole_);
 }
 
 TEST_F(RescueBag, OverwritesNoBagOfTheSameName) {
@@ -165,7 +161,7 @@ TEST_F(RescueBag, ChangesNothingWhereItWouldLoseMessages) {
   record();
   whole_.replace(whole_.size() / 4, 200, 200, '\0');
   EXPECT_NE(refusal(cut(whole_.size() - 100)).find("and more follows"), std::string::npos);
-  EXPECT_EQ(bytesOf(active_), whole_.substr(0, whole_.size() - 100));
+  EXPECT_EQ(test_support::contentOf(active_), whole_.substr(0, whole_.size() - 100));
   for (const std::size_t size : {0u, 20u, 4117u, 4200u})
     EXPECT_NE(refusal(cut(size)).find("holds no whole message; remove it"), std::string::npos) << size;
   std::ofstream(active_, std::ios::trunc) << std::string(10000, 'x');

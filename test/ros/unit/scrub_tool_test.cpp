@@ -17,6 +17,7 @@
 #include <sstream>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "support/content_of.h"
 #include "support/pty.h"
 #include "support/source_dir.h"
 #include "support/tool_run.h"
@@ -72,8 +73,7 @@ class ScrubTool : public testing::Test {
 
 TEST_F(ScrubTool, RemovesIdentifyingDataAndKeepsTheScans) {
   const std::string said = run({path_, "--output", output_});
-  std::ifstream file(output_, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  const std::string bytes = test_support::contentOf(output_);
   EXPECT_EQ(bytes.find("SECRET"), std::string::npos) << bytes.substr(bytes.find("SECRET"), 20);
   ASSERT_TRUE(std::filesystem::exists(output_)) << said;
   rosbag::Bag bag(output_);

@@ -23,6 +23,7 @@
 #include "simulation/pressure_profile.h"
 #include "simulation/session.h"
 #include "simulation/settings_text.h"
+#include "support/content_of.h"
 #include "support/folder_test.h"
 #include "support/holds.h"
 #include "support/source_dir.h"
@@ -311,8 +312,7 @@ TEST_F(SimulateTool, DrawsWhatAnEffectDoes) {
   const std::string printed =
       run({"--simulation", kBench, "--output", path("out"), "--plot", "--effect", "creep"});
   ASSERT_EQ(run_.status, 0) << printed;
-  std::ifstream picture(path("out/creep.png"), std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(picture), {}};
+  const std::string bytes = test_support::contentOf(path("out/creep.png"));
   EXPECT_EQ(bytes.substr(1, 3), "PNG");
   EXPECT_GT(bytes.size(), 10000u);
   EXPECT_EQ(filesIn(path("out")), (std::set<std::string>{"creep.json", "creep.pdf", "creep.png"}));
@@ -341,11 +341,6 @@ std::map<std::string, std::string> bagsBelow(const fs::path& folder) {
   return sums;
 }
 
-std::string contentOf(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 class SimulateShards : public SimulateTool {
  protected:
   std::string shard(const std::string& which, std::vector<std::string> more = {}) {
@@ -354,7 +349,7 @@ class SimulateShards : public SimulateTool {
   }
   std::string merge() { return run({"--merge", "--output", path("out")}); }
   void edit(const std::string& file, const std::string& from, const std::string& to) {
-    std::string text = contentOf(folder_ / "out" / file);
+    std::string text = test_support::contentOf(folder_ / "out" / file);
     ASSERT_NE(text.find(from), std::string::npos) << text;
     text.replace(text.find(from), from.size(), to);
     std::ofstream(folder_ / "out" / file, std::ios::binary) << text;
@@ -375,7 +370,8 @@ TEST_F(SimulateShards, WriteTheBytesOfARunWithoutShards) {
   shard("1/2");
   EXPECT_EQ(bagsBelow(path("out")), bagsBelow(path("whole")));
   EXPECT_EQ(bagsBelow(path("out")).size(), 2u);
-  EXPECT_EQ(contentOf(path("out/truth.yaml")), contentOf(path("whole/truth.yaml")));
+  EXPECT_EQ(test_support::contentOf(path("out/truth.yaml")),
+            test_support::contentOf(path("whole/truth.yaml")));
   EXPECT_EQ(merge(), "2 bags in " + path("out") + " are complete, and each is as its shard wrote it\n");
   EXPECT_EQ(run_.status, 0);
 }

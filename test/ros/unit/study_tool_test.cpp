@@ -11,6 +11,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "ros/bags/bag_writer.h"
+#include "support/content_of.h"
 #include "support/folder_test.h"
 #include "support/synthetic_recording.h"
 #include "support/tool_run.h"
@@ -19,11 +20,6 @@ namespace fsr_ros {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string contentOf(const fs::path& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 class StudyTool : public test_support::FolderTest {
  protected:
@@ -57,20 +53,21 @@ TEST_F(StudyTool, WritesResultsTablesFiguresAndAReportThatNeedsNoNetwork) {
       run({record(), "--plan", (folder_ / "plan.yaml").string(), "--output", output.string()});
   EXPECT_NE(text.find("As published, taxels treated as independent"), std::string::npos) << text;
   EXPECT_NE(text.find((output / "report.html").string()), std::string::npos) << text;
-  const std::string report = contentOf(output / "report.html");
+  const std::string report = test_support::contentOf(output / "report.html");
   EXPECT_NE(report.find("data:image/png;base64"), std::string::npos);
   EXPECT_EQ(report.find("http"), std::string::npos);
   EXPECT_NE(report.find("<h2>Error of the map against error of the curvature</h2>"), std::string::npos);
   EXPECT_NE(text.find("Error of the map against error of the curvature"), std::string::npos) << text;
-  EXPECT_NE(contentOf(output / "results.json").find("\"curvature_errors\": [\n"), std::string::npos);
-  EXPECT_NE(contentOf(output / "results.json").find("\"headline\""), std::string::npos);
+  EXPECT_NE(test_support::contentOf(output / "results.json").find("\"curvature_errors\": [\n"),
+            std::string::npos);
+  EXPECT_NE(test_support::contentOf(output / "results.json").find("\"headline\""), std::string::npos);
   for (const std::string name : {"fig5_response", "fig6_algorithms", "fig7_methods", "fig8_low_pressure",
                                  "fig9_prediction", "fig10_all_curvatures", "splits", "curvature_errors"}) {
     for (const std::string ending : {".png", ".pdf", ".csv"}) {
       EXPECT_GT(fs::file_size(output / "figures" / (name + ending)), 100u) << name << ending;
     }
   }
-  EXPECT_EQ(contentOf(output / "tables" / "scores.csv").rfind("part,method", 0), 0u);
+  EXPECT_EQ(test_support::contentOf(output / "tables" / "scores.csv").rfind("part,method", 0), 0u);
 }
 
 TEST_F(StudyTool, RefusesBagsAndASimulationTogetherAndNeither) {
@@ -112,7 +109,7 @@ class StudyShards : public StudyTool {
   std::string merge() { return run({"--merge", "--no-figures", "--output", (folder_ / "out").string()}); }
 
   void edit(const std::string& name, const std::string& from, const std::string& to) const {
-    std::string content = contentOf(path(name));
+    std::string content = test_support::contentOf(path(name));
     ASSERT_NE(content.find(from), std::string::npos) << content;
     content.replace(content.find(from), from.size(), to);
     std::ofstream(path(name)) << content;
@@ -145,13 +142,16 @@ TEST_F(StudyShards, MakeTheFilesOfARunWithoutShards) {
   for (const auto& entry : fs::recursive_directory_iterator(whole)) {
     if (!entry.is_regular_file()) continue;
     const fs::path other = folder_ / "merged" / entry.path().lexically_relative(whole);
-    EXPECT_TRUE(withoutDate(contentOf(entry.path())) == withoutDate(contentOf(other))) << other;
+    EXPECT_TRUE(withoutDate(test_support::contentOf(entry.path())) ==
+                withoutDate(test_support::contentOf(other)))
+        << other;
     ++files;
   }
   EXPECT_EQ(files, 11u);
-  const std::string pieces = contentOf(path("pieces_1_of_2.json"));
+  const std::string pieces = test_support::contentOf(path("pieces_1_of_2.json"));
   const std::size_t date = pieces.find("\"date\":\"") + 8;
-  EXPECT_NE(contentOf(folder_ / "merged" / "results.json").find(pieces.substr(date, 20)), std::string::npos)
+  EXPECT_NE(test_support::contentOf(folder_ / "merged" / "results.json").find(pieces.substr(date, 20)),
+            std::string::npos)
       << "the date is that of the first shard";
 }
 
@@ -165,7 +165,7 @@ TEST_F(StudyShards, AreRefusedIfTheyReadOtherBags) {
 // The file of the second shard names the pieces of the first.
 TEST_F(StudyShards, AreRefusedIfAShardHasThePiecesOfAnother) {
   const auto sumIn = [&](const std::string& name) {
-    const std::string content = contentOf(path(name));
+    const std::string content = test_support::contentOf(path(name));
     return content.substr(content.find("_of_2.json\": \"") + 14, 64);
   };
   edit("shard_2_of_2.json", sumIn("shard_2_of_2.json"), sumIn("shard_1_of_2.json"));

@@ -16,6 +16,7 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "ros/bags/bag_writer.h"
 #include "ros/tools/tools.h"
+#include "support/content_of.h"
 #include "support/pty.h"
 #include "support/source_dir.h"
 #include "support/synthetic_recording.h"
@@ -51,8 +52,7 @@ class ToolDamage : public testing::Test {
     event.kind = "don";
     for (int i = 0; i < 20; ++i) bag.write("/fsr/events", event.header.stamp, event);
     bag.close();
-    std::ifstream file(bag_, std::ios::binary);
-    sound_.assign(std::istreambuf_iterator<char>(file), {});
+    sound_ = test_support::contentOf(bag_);
   }
 
   void write(const std::string& bytes) const {
@@ -80,10 +80,6 @@ class ToolDamage : public testing::Test {
     return refused;
   }
 
-  static std::string contentOf(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
   std::size_t files() const {
     return static_cast<std::size_t>(
         std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator()));
@@ -126,8 +122,7 @@ TEST_F(ToolDamage, AMessageThatLiesAboutItsLengthTakesNoMemory) {
     for (std::uint32_t i = 1; i < 50; ++i) bag.addScan(i * 100000000LL, i, {{1, 2}, 0x5555, counts, 2});
     bag.close();
   }
-  std::ifstream file(bag_, std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  std::string bytes = test_support::contentOf(bag_);
   const std::string length("\2\0\0\0\1\0\2\0", 8);  // the counts of a scan
   ASSERT_NE(bytes.rfind(length), std::string::npos);
   bytes.replace(bytes.rfind(length), 4, std::string("\0\0\0\x7f", 4));
@@ -174,8 +169,7 @@ TEST_F(ToolDamage, NoToolWritesOverItsInput) {
   EXPECT_NE(said(csvToBagTool, {table, "--columns", columns, "--output", table}).find("would be overwritten"),
             std::string::npos);
   EXPECT_NE(said(simulateTool, {"--simulation", folder_.path("truth.yaml"), "--output", folder_.path()}), "");
-  std::ifstream file(bag_, std::ios::binary);
-  EXPECT_TRUE(sound_ == std::string(std::istreambuf_iterator<char>(file), {}));
+  EXPECT_TRUE(sound_ == test_support::contentOf(bag_));
   EXPECT_EQ(fs::file_size(table), 10u);
   EXPECT_EQ(fs::file_size(folder_.path("truth.yaml")), fs::file_size(bench));
 }
@@ -233,7 +227,7 @@ TEST_F(ToolDamage, NoToolReplacesAFileOfAnotherKind) {
       EXPECT_NE(sentence.find(target + ": is " + kind + ", which is not replaced by " + one.writes),
                 std::string::npos)
           << one.words[1] << ": " << sentence;
-      EXPECT_TRUE(contentOf(target) == content) << target;
+      EXPECT_TRUE(test_support::contentOf(target) == content) << target;
       fs::remove(target);
     }
   }

@@ -85,7 +85,7 @@ void writeLongBag(const std::string& path, std::size_t scans) {
   bag.close();
 }
 
-using Tool = std::function<int(const std::string& bag, const std::string& folder)>;
+using ToolOnBag = std::function<int(const std::string& bag, const std::string& folder)>;
 
 int runTool(int (*tool)(int, const char* const*, std::ostream&), const std::vector<std::string>& words) {
   std::vector<const char*> argv;
@@ -94,7 +94,7 @@ int runTool(int (*tool)(int, const char* const*, std::ostream&), const std::vect
   return tool(static_cast<int>(argv.size()), argv.data(), out);
 }
 
-Tool exportTo(const std::string& format) {
+ToolOnBag exportTo(const std::string& format) {
   return [format](const std::string& bag, const std::string& folder) {
     const auto tool = [](int argc, const char* const* argv, std::ostream& out) {
       return exportTool(argc, argv, out);
@@ -118,7 +118,7 @@ class ToolMemory : public testing::Test {
   }
 
   // By how much the peak rises for each byte that the bag is longer.
-  double growth(const Tool& tool) const {
+  double growth(const ToolOnBag& tool) const {
     const double small = peakOf([&] { return tool(short_, folder_.path()); });
     const double large = peakOf([&] { return tool(long_, folder_.path()); });
     EXPECT_FALSE(std::isnan(small) || std::isnan(large)) << "the tool failed, or /proc does not tell";
@@ -132,7 +132,7 @@ class ToolMemory : public testing::Test {
 
 // rosbag's index is 0.14 bytes for each byte of such a bag. The caches of HDF5 are not yet full here.
 TEST_F(ToolMemory, OfScrubAndExportGrowsByRosbagsIndex) {
-  const Tool scrub = [](const std::string& bag, const std::string& folder) {
+  const ToolOnBag scrub = [](const std::string& bag, const std::string& folder) {
     return runTool(scrubTool, {"scrub", bag, "--output", folder + "/out.bag"});
   };
   EXPECT_LT(growth(scrub), 0.25);
@@ -143,7 +143,7 @@ TEST_F(ToolMemory, OfScrubAndExportGrowsByRosbagsIndex) {
 // The counts are 0.7 bytes for each byte of the bag; they lie in a file. Times, pressures and what is asked
 // of each scan stay.
 TEST_F(ToolMemory, OfCheckBagGrowsByAFewNumbersForAScan) {
-  const Tool check = [](const std::string& bag, const std::string&) {
+  const ToolOnBag check = [](const std::string& bag, const std::string&) {
     return runTool(checkBagTool, {"check_bag", bag});
   };
   EXPECT_LT(growth(check), 0.25);
@@ -151,7 +151,7 @@ TEST_F(ToolMemory, OfCheckBagGrowsByAFewNumbersForAScan) {
 
 // A piece of the study: linear regression, whose errors are 1.4 bytes for each byte of the bag.
 TEST_F(ToolMemory, OfStudyGrowsByTheErrorsOfOneMethod) {
-  const Tool study = [](const std::string& bag, const std::string& folder) {
+  const ToolOnBag study = [](const std::string& bag, const std::string& folder) {
     return runTool(studyTool,
                    {"study", bag, "--paper-only", "--shard", "1/100", "--threads", "2", "--output", folder});
   };

@@ -13,6 +13,7 @@
 #include "report/verdict_file.h"
 #include "ros/bags/bag_writer.h"
 #include "ros/tools/map_gain.h"
+#include "support/content_of.h"
 #include "support/example_discrepancy.h"
 #include "support/folder_test.h"
 #include "support/holds.h"
@@ -122,8 +123,7 @@ TEST_F(TrainTool, FitsOnAScreenAndEndsWithWhatTheMapIsGoodFor) {
       << text;
   EXPECT_NE(text.find("\ncylinder_7cm "), std::string::npos) << text;
   EXPECT_EQ(text.find("Error budget [kPa]"), std::string::npos) << text;
-  std::ifstream file(report);
-  const std::string json{std::istreambuf_iterator<char>(file), {}};
+  const std::string json = test_support::contentOf(report);
   EXPECT_NE(json.find("\"good_for\": \"Good for: not known on a new mount"), std::string::npos);
   const std::string checked = run({"--check", output, flat, bend_});
   EXPECT_TRUE(test_support::holds(
@@ -248,8 +248,7 @@ TEST_F(TrainTool, ExpectsATareAtTheStartOfASession) {
   const std::string text = run(words);
   EXPECT_TRUE(test_support::holds(text, {"Tare at the start of a session: expected, since it takes ",
                                          "\nsession_3.bag, flat, mount 1 "}));
-  std::ifstream file(report);
-  const std::string json{std::istreambuf_iterator<char>(file), {}};
+  const std::string json = test_support::contentOf(report);
   EXPECT_NE(json.find("\"tare_expected\": true"), std::string::npos);
   EXPECT_TRUE(test_support::holds(run({"--check", output, fresh}),
                                   {"Note: each session is checked with a tare at its start"}));
@@ -311,8 +310,7 @@ TEST_F(TrainTool, AFailureOverwritesNothing) {
   EXPECT_EQ(run({bend_, "--output", output, "--scheme", "flat_only"}),
             "scheme is flat_only, but no recording is of a flat surface (there is cylinder_7cm); add one, or "
             "choose baseline or per_curvature");
-  std::ifstream file(output);
-  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), old);
+  EXPECT_EQ(test_support::contentOf(output), old);
 }
 
 TEST_F(TrainTool, PrintsTheErrorBudgetOfAFileAgain) {

@@ -25,8 +25,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t kStart = 1500000000000000000;  // [ns]
-
 class UnsoundSpans : public test_support::FolderTest {
  protected:
   void SetUp() override {
@@ -34,7 +32,7 @@ class UnsoundSpans : public test_support::FolderTest {
     test_support::SyntheticRig rig;  // cycles of 10 s, 100 scans each
     rig.surfaces = {{"flat", 0.0}, {"cylinder_13cm", 7.7}, {"cylinder_5cm", 20.0}};
     recording_ = test_support::syntheticRecording(rig);
-    recording_.start_ns = kStart;
+    recording_.start_ns = 1500000000000000000;
   }
 
   // No taxel reads anything from scan `first` to `last`.
@@ -44,14 +42,13 @@ class UnsoundSpans : public test_support::FolderTest {
               recording_.counts.begin() + static_cast<std::ptrdiff_t>(last + 1) * taxels, 0);
   }
   void expectThatEveryToolSays(const std::string& sentence, const std::string& bag) const {
-    using Tool = int (*)(int, const char* const*, std::ostream&);
     std::ofstream(path("plan.yaml"))
         << "study: quick\nforest: {trees: 5}\nresamples: 99\nbandwidths: [0.0078125, 0.0625]\n";
     fsr::simulation::SimulationSettings settings =
         fsr::simulation::readSimulationFile(test_support::sourceDir() + "/config/simulation/core.yaml");
     settings.layout = recording_.layout;
     std::ofstream(path("small.yaml")) << fsr::simulation::simulationText(settings);
-    const std::vector<std::pair<Tool, std::vector<std::string>>> calls = {
+    const std::vector<std::pair<decltype(&checkBagTool), std::vector<std::string>>> calls = {
         {checkBagTool, {"check_bag", bag}},
         {trainTool, {"train", bag, "--output", path("calibration.h5")}},
         {studyTool, {"study", bag, "--plan", path("plan.yaml"), "--output", path("study")}},
@@ -76,7 +73,8 @@ TEST_F(UnsoundSpans, OfARejectedAttemptAreLeftOutByEveryToolAndNamed) {
     rosbag::Bag more(bag, rosbag::bagmode::Append);
     const auto tell = [&](const std::string& kind, const std::string& label, std::int64_t scan) {
       fsr_pressure_map::Event event;
-      event.header.stamp.fromNSec(static_cast<std::uint64_t>(kStart + 100'000'000 * scan + 1'000'000));
+      event.header.stamp.fromNSec(
+          static_cast<std::uint64_t>(recording_.start_ns + 100'000'000 * scan + 1'000'000));
       event.kind = kind;
       event.label = label;
       more.write("/fsr/events", event.header.stamp, event);
