@@ -5,19 +5,13 @@
 #include <gtest/gtest.h>
 
 #include "health/reading_rule.h"
-#include "support/synthetic_recording.h"
+#include "health/recorded.h"
 
 namespace fsr::health {
 namespace {
 
 using map::taxel_flag::kDead;
 using map::taxel_flag::kStuck;
-
-dataset::Recording recorded() {
-  test_support::SyntheticRig rig;
-  rig.size = {4, 5};
-  return test_support::syntheticRecording(rig);
-}
 
 std::vector<Fault> faultsOf(const dataset::Recording& recording) {
   Sheet sheet{recording.layout, double(recording.full_scale), {}, std::vector<bool>(20, true)};

@@ -93,8 +93,6 @@ void expectSame(const fsr::study::StudyResult& one, const fsr::study::StudyResul
   EXPECT_TRUE(fsr::report::studyTables(one) == fsr::report::studyTables(other));
 }
 
-}  // namespace
-
 TEST_F(StudyPartsFile, OfThreeComputersMakeTheStudyOfOneWithTheMemoryOfTheSheet) {
   const fsr::study::StudyResult one = fsr::study::study(withMemory());
   ASSERT_EQ(one.splits.back().scores.back().id, "history");
@@ -162,3 +160,5 @@ TEST_F(StudyPartsFile, OfAnotherStudyIsNotAdded) {
   EXPECT_EQ(refusal([&] { fsr::report::addStudyParts(other, "b.json", "a.json", parts); }),
             "b.json: describes other recordings than a.json; run both shards again");
 }
+
+}  // namespace
