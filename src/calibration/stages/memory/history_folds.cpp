@@ -131,13 +131,11 @@ void setTrainedCodes(const std::vector<regression::CodeStatistics>& sections, st
 }  // namespace
 
 HistoryFolds::HistoryFolds(const HistoryProblem& problem, const dataset::Protocols& protocols,
-                           unsigned threads, const Calibration& calibration,
-                           std::vector<std::vector<double>> judged)
+                           unsigned threads, const Calibration& calibration)
     : problem_(problem),
       protocols_(protocols),
       threads_(threads),
       calibration_(calibration),
-      judged_(std::move(judged)),
       grid_(historyGrid(protocols.lowest, protocols.highest, protocols.longest_hold)),
       streams_(historyStreams(problem.recordings, problem.classes.class_of, problem.sections, protocols,
                               grid_, problem.sessions)) {
@@ -192,8 +190,7 @@ void HistoryFolds::addRows(std::size_t taxel, const Answers& answers, std::size_
                            LeftOutSums& sums) const {
   HistoryCourse course;
   for (const HistoryStream& stream : streams_)
-    addHistoryRows(stream, grid_, taxel, answers, left_out, course, sums,
-                   judged_.empty() ? nullptr : &judged_[stream.number()]);
+    addHistoryRows(stream, grid_, taxel, answers, left_out, course, sums);
   sums.finish();
 }
 

@@ -64,11 +64,9 @@ class HistoryErrors {
 /// without it. The results do not depend on the number of threads.
 class HistoryFolds {
  public:
-  /// All arguments but `judged` must outlive the object. `calibration` must have its tables. `judged`: the
-  /// pressures that scans have where their protocol is left out [recordings][scans] [Pa]; empty = those of
-  /// the recordings.
+  /// All arguments must outlive the object. `calibration` must have its tables.
   HistoryFolds(const HistoryProblem& problem, const dataset::Protocols& protocols, unsigned threads,
-               const Calibration& calibration, std::vector<std::vector<double>> judged = {});
+               const Calibration& calibration);
 
   const HistoryGrid& grid() const { return grid_; }
   const dataset::Protocols& protocols() const { return protocols_; }
@@ -110,7 +108,6 @@ class HistoryFolds {
   const dataset::Protocols& protocols_;
   unsigned threads_;
   const Calibration& calibration_;
-  std::vector<std::vector<double>> judged_;
   HistoryGrid grid_;
   std::vector<HistoryStream> streams_;
   std::vector<Answers> limits_;  // [protocols][classes], the pressures of training alone

@@ -152,7 +152,7 @@ void LeftOutSums::merge(const LeftOutSums& other) {
 
 void addHistoryRows(const HistoryStream& stream, const HistoryGrid& grid, std::size_t taxel,
                     const std::vector<StaticAnswer>& answers, std::size_t left_out, HistoryCourse& course,
-                    LeftOutSums& sums, const std::vector<double>* judged) {
+                    LeftOutSums& sums) {
   const std::size_t n = grid.features();
   std::vector<double> features(n), mean(n);
   double target = 0, count = 0;
@@ -170,8 +170,7 @@ void addHistoryRows(const HistoryStream& stream, const HistoryGrid& grid, std::s
                row = scan;
                historyFeatures(grid, x, state, features.data());
                for (std::size_t k = 0; k < n; ++k) mean[k] += features[k];
-               const bool is_judged = judged != nullptr && scan.protocol == left_out;
-               target += (is_judged ? *judged : stream.recording().pressure)[scan.number] - x;
+               target += stream.recording().pressure[scan.number] - x;
                count += 1;
              });
   close();

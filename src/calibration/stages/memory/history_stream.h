@@ -160,10 +160,10 @@ struct LeftOutSums {
 };
 
 /// Adds the readings of one taxel in one recording, in means over half a second. `answers` [classes] were
-/// trained without the protocol `left_out`. `judged` [scans]: the pressures of that protocol [Pa]; null =
-/// those of the recording. `course`: see HistoryStream::run(). finish() must follow the last recording.
+/// trained without the protocol `left_out`. `course`: see HistoryStream::run(). finish() must follow the last
+/// recording.
 void addHistoryRows(const HistoryStream& stream, const HistoryGrid& grid, std::size_t taxel,
                     const std::vector<StaticAnswer>& answers, std::size_t left_out, HistoryCourse& course,
-                    LeftOutSums& sums, const std::vector<double>* judged = nullptr);
+                    LeftOutSums& sums);
 
 }  // namespace fsr::calibration
