@@ -56,12 +56,20 @@ int serve() {
   });
 }
 
-// A node whose callbacks come in this number of threads.
-template <MakeServer maker, std::uint32_t threads = 1>
+template <MakeServer maker>
 int spin() {
   return runNode([] {
     const Server server = maker(ros::NodeHandle{}, ros::NodeHandle{"~"});
-    ros::MultiThreadedSpinner(threads).spin();
+    ros::spin();
+  });
+}
+
+// Messages are collected while ~train runs. The server is called by name, so that nodes also start where a
+// build leaves the training out.
+int train() {
+  return runNode([] {
+    const Server server = makeTrainingServer(ros::NodeHandle{}, ros::NodeHandle{"~"});
+    ros::MultiThreadedSpinner(2).spin();
   });
 }
 
@@ -101,18 +109,17 @@ int record() {
 }  // namespace
 
 int nodeMain(const std::string& name, int argc, char** argv) {
-  static const std::map<std::string, int (*)()> nodes = {
-      {"calibration", serve<makeCalibrationServer>},
-      {"conduct", conduct},
-      {"curvature", serve<makeCurvatureServer>},
-      {"driver", serve<makeServer<Driver>>},
-      {"limb", spin<makeLimbServer>},
-      {"recheck", recheck},
-      {"recorder", record},
-      {"rig_emulator", spin<makeServer<RigEmulator>>},
-      {"session", serve<makeServer<SessionServer>>},
-      {"training", spin<makeTrainingServer, 2>},  // messages are collected while ~train runs
-      {"view", serve<makeViewServer>}};
+  static const std::map<std::string, int (*)()> nodes = {{"calibration", serve<makeCalibrationServer>},
+                                                         {"conduct", conduct},
+                                                         {"curvature", serve<makeCurvatureServer>},
+                                                         {"driver", serve<makeServer<Driver>>},
+                                                         {"limb", spin<makeLimbServer>},
+                                                         {"recheck", recheck},
+                                                         {"recorder", record},
+                                                         {"rig_emulator", spin<makeServer<RigEmulator>>},
+                                                         {"session", serve<makeServer<SessionServer>>},
+                                                         {"training", train},
+                                                         {"view", serve<makeViewServer>}};
   ros::init(argc, argv, name == "recorder" ? "record" : name);
   return nodes.at(name)();
 }
