@@ -1,25 +1,11 @@
 #include "calibration/sources.h"
 
-#include <ctime>
-
 #include "dataset/conditioning.h"
 #include "dataset/mounts.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "settings/number_text.h"
 
 namespace fsr::calibration {
-
-namespace {
-
-std::string now() {
-  const std::time_t time = std::time(nullptr);
-  std::tm utc{};
-  gmtime_r(&time, &utc);
-  char text[32];
-  std::strftime(text, sizeof(text), "%Y-%m-%dT%H:%M:%SZ", &utc);
-  return text;
-}
-
-}  // namespace
 
 void requireMatrix(const Calibration& calibration, const dataset::Recording& recording) {
   if (recording.layout.size == calibration.layout.size &&
@@ -44,7 +30,7 @@ Provenance provenanceOf(const std::vector<dataset::Recording>& recordings,
                         const CalibrationOptions& options) {
   Provenance provenance;
   provenance.tool_version = FSR_VERSION;
-  provenance.date = options.date.empty() ? now() : options.date;
+  provenance.date = options.date.empty() ? settings::nowText() : options.date;
   provenance.seed = options.seed;
   for (const dataset::Recording& recording : recordings) {
     provenance.bags.push_back({recording.name, recording.sha256, recording.scans()});

@@ -127,7 +127,7 @@ class Checker {
     for (std::size_t i = 0; i < recording.scans(); ++i) {
       const bool moved = recording.condition[i] != surface;
       surface = recording.condition[i];
-      if (moved && (i > 0 || !lies_on)) setSurface(recording, i);
+      if (moved && (i > 0 || !lies_on)) setSurface(recording, i, start + recording.time[i]);
       const matrix::ScanView scan{recording.layout.size, recording.full_scale, counts[i], taxels_.size()};
       for (LiveMap& one : maps_) {
         calibration::setTemperatureOf(recording, i, calibration_, one.calibrator);
@@ -166,7 +166,8 @@ class Checker {
   }
 
  private:
-  void setSurface(const Recording& recording, std::size_t scan) {
+  // `time`: in the time of the live maps [s].
+  void setSurface(const Recording& recording, std::size_t scan, double time) {
     const std::size_t condition = recording.condition[scan];
     const matrix::Surface& surface = recording.conditions[condition];
     if (surfaces_.try_emplace(surface.name).second) order_.push_back(surface.name);
@@ -178,8 +179,7 @@ class Checker {
                           calibration::whyNoRest(recording, condition));
     }
     for (LiveMap& one : maps_) {
-      one.calibrator.setSurface(surface,
-                                double(recording.start_ns - first_ns_) * 1e-9 + recording.time[scan]);
+      one.calibrator.setSurface(surface, time);
       if (!one.tared) continue;
       one.calibrator.setTare(offset);
       if (!offset.empty()) one.calibrator.markRest();

@@ -1,6 +1,7 @@
 #include "settings/number_text.h"
 
 #include <cmath>
+#include <ctime>
 #include <iomanip>
 #include <sstream>
 
@@ -41,6 +42,15 @@ std::string roundedKilopascals(double pressure, int digits) {
 
 std::string megabytesText(std::uint64_t bytes) {
   return fixedText(static_cast<double>(bytes) / 1e6, 1) + " MB";
+}
+
+std::string nowText() {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  char text[32];
+  std::strftime(text, sizeof(text), "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return text;
 }
 
 }  // namespace fsr::settings

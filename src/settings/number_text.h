@@ -31,4 +31,7 @@ std::string roundedKilopascals(double pressure, int digits);
 /// `bytes` in megabytes of 1e6 bytes: "12.3 MB".
 std::string megabytesText(std::uint64_t bytes);
 
+/// The current time in UTC by ISO 8601: "2026-11-25T09:30:00Z".
+std::string nowText();
+
 }  // namespace fsr::settings

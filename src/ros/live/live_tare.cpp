@@ -2,10 +2,9 @@
 
 #include <ros/console.h>
 
-#include <ctime>
-
 #include "fsr_pressure_map/settings/input_error.h"
 #include "ros/live/live_calibration.h"
+#include "settings/number_text.h"
 
 namespace fsr_ros {
 
@@ -16,15 +15,6 @@ const std::string kRefusedTare = "the tare is refused: ";
 fsr::settings::InputError changedMeanwhile() {
   return fsr::settings::InputError(kRefusedTare +
                                    "the calibration or the surface changed during the measurement");
-}
-
-std::string nowUtc() {
-  const std::time_t now = std::time(nullptr);
-  std::tm utc{};
-  gmtime_r(&now, &utc);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
-  return text;
 }
 
 }  // namespace
@@ -89,7 +79,7 @@ fsr::calibration::Tare LiveCalibration::measureTare(std::unique_lock<std::mutex>
   tare.offset =
       measurement_->offset(tare_.review(id(), surface_received_ ? &surface_ : nullptr),
                            fsr::calibration::restOfTraining(loaded_->session_zero, loaded_->calibrator));
-  tare.date = nowUtc();
+  tare.date = fsr::settings::nowText();
   return tare;
 }
 

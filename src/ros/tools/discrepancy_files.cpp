@@ -1,8 +1,6 @@
 #include "ros/tools/discrepancy_files.h"
 
 #include <algorithm>
-#include <chrono>
-#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -14,6 +12,7 @@
 #include "ros/bags/resource_path.h"
 #include "ros/tools/tool_options.h"
 #include "settings/file_kind.h"
+#include "settings/number_text.h"
 #include "settings/replace_file.h"
 #include "settings/sha256.h"
 #include "simulation/taxel_curves.h"
@@ -96,20 +95,6 @@ StoredPrediction readPredictionBeside(const std::string& verdict_path) {
   return stored;
 }
 
-namespace {
-
-// The current time in UTC, in the format of ISO 8601.
-std::string now() {
-  const std::time_t time = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-  std::tm parts{};
-  gmtime_r(&time, &parts);
-  char text[32];
-  std::strftime(text, sizeof(text), "%Y-%m-%dT%H:%M:%SZ", &parts);
-  return text;
-}
-
-}  // namespace
-
 ShowLedger::ShowLedger() : folder_(rosHome() + "/fsr_pressure_map/show_opened") {}
 
 int ShowLedger::open(const std::string& sha256, std::uint64_t seed) const {
@@ -119,7 +104,7 @@ int ShowLedger::open(const std::string& sha256, std::uint64_t seed) const {
   {
     // One short line in one write, so that programs running at the same time do not mix their lines.
     std::ofstream ledger(path, std::ios::app);
-    ledger << now() + " seed " + std::to_string(seed) + "\n" << std::flush;
+    ledger << fsr::settings::nowText() + " seed " + std::to_string(seed) + "\n" << std::flush;
     if (!ledger) {
       throw fsr::settings::InputError(
           path +

@@ -209,10 +209,7 @@ void ChangeRange::finish() {
 
 double ChangeRange::limited(double x, double change) const {
   const EvenPlace at = placeOn(*grid_, x);
-  const auto on = [&](const std::vector<double>& line) {
-    return line[at.below] + at.share * (line[at.below + 1] - line[at.below]);
-  };
-  return std::min(std::max(change, on(least_)), on(largest_));
+  return std::min(std::max(change, EvenLine::between(least_, at)), EvenLine::between(largest_, at));
 }
 
 HistoryModel historyModel(HistoryFamily family, const HistoryGrid& grid, const Eigen::VectorXd& coefficients,

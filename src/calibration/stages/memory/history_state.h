@@ -36,9 +36,11 @@ class EvenLine {
   }
 
   EvenPlace placeOf(double x) const { return place(x, first_, per_unit_, values_.size()); }
-  double at(const EvenPlace& place) const {
-    return values_[place.below] + place.share * (values_[place.below + 1] - values_[place.below]);
+  /// The line through `values`, one for each knot.
+  static double between(const std::vector<double>& values, const EvenPlace& place) {
+    return values[place.below] + place.share * (values[place.below + 1] - values[place.below]);
   }
+  double at(const EvenPlace& place) const { return between(values_, place); }
   double operator()(double x) const { return at(placeOf(x)); }
 
  private:
