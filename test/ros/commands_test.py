@@ -301,7 +301,7 @@ class CommandsTest(unittest.TestCase):
             self.assertTrue(any(command.startswith(start) for command in all_commands()), "no page has %r any more" % start)
 
     def test_scripts_have_the_options(self):
-        """Of those that are not run."""
+        """Of those that are not run; --help itself is what is called here."""
         options = {}
         for command in filter(reason_not_to_run, all_commands()):
             for script, words in re.findall(r"(scripts/\w+)((?: (?!--? |&&)\S+)*)", command):
@@ -311,7 +311,7 @@ class CommandsTest(unittest.TestCase):
             with self.each(script):
                 said = subprocess.run([str(SOURCE / script), "--help"], text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
                 self.assertEqual(said.returncode, 0, said.stdout)
-                self.assertEqual({name for name in names if name not in said.stdout}, set())
+                self.assertEqual({name for name in names - {"--help"} if name not in said.stdout}, set())
 
     def test_launch_files_take_the_arguments(self):
         check = launch_check()
