@@ -124,7 +124,8 @@ def types_in(text):
 
 
 class TypeNames(unittest.TestCase):
-    """Two different types of one name in one library are undefined behaviour: the linker keeps one of their constructors for both."""
+    """Two different types of one name in one program are undefined behaviour: the linker keeps one of their constructors for both. A type
+    of the tests may have the name of one in another folder of tests, which is another program, but of none in the library."""
 
     def test_no_type_name_twice_in_one_namespace(self):
         places = collections.defaultdict(set)
@@ -132,6 +133,10 @@ class TypeNames(unittest.TestCase):
             for name in types_in(text_of(path)):
                 places[name].add(str(path))
         self.assertGreater(len(places), 200)
+        for path in files_in(SOURCE / "test"):
+            for name in types_in(text_of(path)):
+                place = name if name in places else "%s in %s" % (name, path.parts[len(SOURCE.parts) + 1])
+                places[place].add(str(path))
         self.assertEqual({name: files for name, files in places.items() if len(files) > 1}, {})
 
 
