@@ -2,7 +2,10 @@
 
 #include <filesystem>
 
+#include "exports/row_table.h"
 #include "exports/scan_table.h"
+#include "exports/statistics_table.h"
+#include "exports/trial_table.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "settings/file_kind.h"
 
@@ -11,15 +14,20 @@ namespace fsr::exports {
 namespace {
 
 template <typename Sink>
-std::unique_ptr<ScanSink> opened(const std::string& output) {
+std::unique_ptr<ScanSink> opened(const std::string& output, const StatisticsOptions&) {
   return std::make_unique<Sink>(output);
 }
 
-std::unique_ptr<ScanSink> openTekscan(const std::string& output) {
+template <typename Sink>
+std::unique_ptr<ScanSink> withOptions(const std::string& output, const StatisticsOptions& options) {
+  return std::make_unique<Sink>(output, options);
+}
+
+std::unique_ptr<ScanSink> openTekscan(const std::string& output, const StatisticsOptions& options) {
   if (std::filesystem::path(output).extension() == ".gz") {
-    throw settings::InputError("--output is " + output + ", but only csv can be compressed");
+    throw settings::InputError("--output is " + output + ", but only tables can be compressed");
   }
-  return opened<TekscanFile>(output);
+  return opened<TekscanFile>(output, options);
 }
 
 }  // namespace
@@ -28,25 +36,16 @@ const std::vector<ScanFormat>& scanFormats() {
   static const std::vector<ScanFormat> formats = {
       {"csv", "table with a row for each taxel and scan (.gz: compressed); takes several bags", true,
        opened<CsvTable>},
+      {"statistics", "table with a row for each region and scan: peak, mean, force, area (.h5: HDF5)", true,
+       withOptions<StatisticsTable>},
+      {"trial", "table with a row for each region of a recording, and of each step in it (.h5: HDF5)", true,
+       withOptions<TrialTable>},
       {"hdf5", "datasets with an entry for each scan (h5py, MATLAB, R)", false, opened<ScanTable>},
       {"tekscan", "ASCII as Tekscan's I-Scan and F-Scan save it (*.asf)", false, openTekscan}};
   return formats;
 }
 
 namespace {
-
-constexpr char kAbsent[] = "NA";
-
-std::string quoted(const std::string& text) {
-  if (text.empty()) return kAbsent;
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string safe = "\"";
-  for (const char c : text) {
-    if (c == '"') safe += '"';
-    safe += c == '\n' || c == '\r' ? ' ' : c;  // simple readers take each line for a row
-  }
-  return safe + '"';
-}
 
 template <typename Value>
 std::string known(const std::optional<Value>& value) {
@@ -56,9 +55,10 @@ std::string known(const std::optional<Value>& value) {
 // The first columns of a row, which are the same for all taxels of a scan. tail() has the later ones.
 std::string head(const ScanRecord& scan, const std::string& bag) {
   const bool mounted = scan.surface != nullptr && scan.surface->mount != 0;
-  return bag + ',' + quoted(scan.session) + ',' + (scan.surface ? quoted(scan.surface->name) : kAbsent) +
-         ',' + (mounted ? std::to_string(scan.surface->mount) : kAbsent) + ',' + known(scan.cycle) + ',' +
-         quoted(scan.event) + ',' + secondsText(scan.since_ns) + ',' + known(scan.sequence) + ',';
+  return bag + ',' + quotedCell(scan.session) + ',' +
+         (scan.surface ? quotedCell(scan.surface->name) : kAbsent) + ',' +
+         (mounted ? std::to_string(scan.surface->mount) : kAbsent) + ',' + known(scan.cycle) + ',' +
+         quotedCell(scan.event) + ',' + secondsText(scan.since_ns) + ',' + known(scan.sequence) + ',';
 }
 
 std::string tail(const ScanRecord& scan) {
@@ -85,7 +85,7 @@ CsvTable::CsvTable(const std::string& path) : file_(path, settings::file_kind::k
 }
 
 void CsvTable::begin(const ExportSubject& subject) {
-  bag_ = quoted(subject.name);
+  bag_ = quotedCell(subject.name);
 }
 
 void CsvTable::add(const ScanRecord& scan) {

@@ -7,9 +7,20 @@
 #include <vector>
 
 #include "exports/scan_record.h"
+#include "fsr_pressure_map/view/colour_map.h"
 #include "settings/fresh_file.h"
 
 namespace fsr::exports {
+
+/// What the statistics by region are computed with.
+struct StatisticsOptions {
+  std::string regions;              ///< region file (map/region.h); empty = the whole matrix alone
+  double contact_threshold = 10e3;  ///< a taxel is in contact from this pressure on [Pa]
+  view::PressureUnit unit = view::PressureUnit::kKilopascal;  ///< of pressures in the table
+  /// A step has at least this force on the whole matrix [N]; NaN = a tenth of its range above the lowest.
+  double step_force = ScanRecord::kUnknown;
+  double above = ScanRecord::kUnknown;  ///< pressure for the time above it [Pa]; NaN = none
+};
 
 /// An export format that takes the scans of a recording one after another.
 struct ScanFormat {
@@ -17,7 +28,7 @@ struct ScanFormat {
   std::string summary;              ///< one line for the help
   bool several_recordings = false;  ///< whether one output can hold several recordings
   /// Opens the output. Throws InputError if it cannot be written.
-  std::function<std::unique_ptr<ScanSink>(const std::string& output)> open;
+  std::function<std::unique_ptr<ScanSink>(const std::string& output, const StatisticsOptions& options)> open;
 };
 
 /// The formats of this package. `export` offers each of them; a new format needs an entry here and nothing

@@ -1,11 +1,9 @@
 #include "exports/scan_table.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstdlib>
 
-#include "settings/replace_file.h"
+#include "exports/hdf5_output.h"
 
 namespace fsr::exports {
 
@@ -15,19 +13,6 @@ using hdf5::ColumnWriter;
 namespace {
 
 constexpr char kGroup[] = "/scans";
-
-// Runs `act` alone, because HDF5 is not thread-safe. If HDF5 cannot write, throws an InputError with the
-// reason in errno, since HDF5 gives none.
-template <typename Act>
-void attempt(const std::string& path, Act act) {
-  const std::lock_guard<std::mutex> lock(hdf5::hdf5Mutex());
-  errno = 0;
-  try {
-    act();
-  } catch (const settings::InputError&) {
-    throw settings::cannotWrite(path, errno != 0 ? errno : EIO);
-  }
-}
 
 std::string pathOf(const std::string& name) {
   return std::string(kGroup) + '/' + name;

@@ -58,9 +58,10 @@ std::string TekscanFile::header(const ScanRecord& first) {
   line("SENSOR_TYPE", subject_.model.empty() ? subject_.sensor : subject_.model, text);
   line("ROWS", std::to_string(layout_.size.rows), text);
   line("COLS", std::to_string(layout_.size.columns), text);
-  line("ROW_SPACING", settings::roundedText(layout_.pitch_y * 1e3, 6) + " mm", text);
-  line("COL_SPACING", settings::roundedText(layout_.pitch_x * 1e3, 6) + " mm", text);
-  line("SENSEL_AREA", settings::roundedText(area, 6) + " mm2", text);
+  // With decimals also where they are zeros: readers look for a point (pressuRe::load_tekscan).
+  line("ROW_SPACING", settings::fixedText(layout_.pitch_y * 1e3, 4) + " mm", text);
+  line("COL_SPACING", settings::fixedText(layout_.pitch_x * 1e3, 4) + " mm", text);
+  line("SENSEL_AREA", settings::fixedText(area, 4) + " mm2", text);
   line("NOISE_THRESHOLD", "0", text);
   text += "SECONDS_PER_FRAME ";
   period_at_ = text.size();

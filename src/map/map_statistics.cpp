@@ -74,8 +74,8 @@ RegionStatistics regionStatistics(const PressureMap& map, const Region& region,
       result.peak = pressure;
       result.peak_taxel = {i};
     }
-    const bool contact = pressure >= contact_threshold && (map.flags[i] & taxel_flag::kBelowRange) == 0;
-    if (contact) sums.add(pressure, areas[i], map.layout.position({i}));
+    if (inContact(pressure, map.flags[i], contact_threshold))
+      sums.add(pressure, areas[i], map.layout.position({i}));
   }
   finish(sums, !std::isnan(result.peak), result);
   return result;

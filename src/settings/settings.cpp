@@ -28,8 +28,11 @@ namespace {
 // A surface of 64 x 64 taxels takes 256 KiB. Each byte of a list of digits takes 230 bytes of memory [bytes].
 constexpr std::uint64_t kLargestFile = 2 << 20;
 
+// A long text, e.g. a file of another kind, by its beginning.
 std::string oneLine(const YAML::Node& node) {
-  if (node.IsScalar()) return node.Scalar();
+  constexpr std::size_t kLongest = 80;  // [bytes]
+  if (node.IsScalar())
+    return node.Scalar().size() > kLongest ? node.Scalar().substr(0, kLongest) + "..." : node.Scalar();
   if (node.IsSequence()) return "a list of " + std::to_string(node.size());
   if (node.IsMap()) return "a mapping";
   return "empty";

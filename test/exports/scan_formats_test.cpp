@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 using fsr::exports::ScanFormat;
 
 void writeTwoScans(const ScanFormat& format, const std::string& output, bool finish) {
-  const auto sink = format.open(output);
+  const auto sink = format.open(output, {});
   sink->begin(export_test::exampleSubject());
   fsr::exports::ScanRecord scan = export_test::exampleScan();
   sink->add(scan);
@@ -69,10 +69,11 @@ TEST(ScanFormats, TekscanRefusesACompressedOutput) {
   for (const ScanFormat& format : fsr::exports::scanFormats()) {
     if (format.name != "tekscan") continue;
     try {
-      format.open(folder.path("a.asf.gz"));
+      format.open(folder.path("a.asf.gz"), {});
       FAIL() << "opened";
     } catch (const fsr::settings::InputError& error) {
-      EXPECT_EQ(error.what(), "--output is " + folder.path("a.asf.gz") + ", but only csv can be compressed");
+      EXPECT_EQ(error.what(),
+                "--output is " + folder.path("a.asf.gz") + ", but only tables can be compressed");
     }
   }
 }

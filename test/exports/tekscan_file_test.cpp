@@ -38,9 +38,10 @@ TEST_F(TekscanFile, HasTheHeaderThatItsReadersNeed) {
   later.since_ns += 100000000;
   const std::string text = write({exampleScan(), later}, true);
   for (const char* line :
-       {"DATA_TYPE MOVIE\r\n", "ROWS 2\r\n", "COLS 3\r\n", "ROW_SPACING 8 mm\r\n", "COL_SPACING 10 mm\r\n",
-        "SENSEL_AREA 80 mm2\r\n", "SECONDS_PER_FRAME 0.100000000 ", "TIME 11/14/2023 22:13:20.123\r\n",
-        "SATURATION_PRESSURE 620 kPa\r\n", "CALIBRATION_POINT_1 0 kPa\r\n", "CALIBRATION_POINT_2 620 kPa\r\n",
+       {"DATA_TYPE MOVIE\r\n", "ROWS 2\r\n", "COLS 3\r\n", "ROW_SPACING 8.0000 mm\r\n",
+        "COL_SPACING 10.0000 mm\r\n", "SENSEL_AREA 80.0000 mm2\r\n", "SECONDS_PER_FRAME 0.100000000 ",
+        "TIME 11/14/2023 22:13:20.123\r\n", "SATURATION_PRESSURE 620 kPa\r\n",
+        "CALIBRATION_POINT_1 0 kPa\r\n", "CALIBRATION_POINT_2 620 kPa\r\n",
         "CALIBRATION_INFO 0123456789ab interpolated\r\n", "UNITS kPa\r\n", "START_FRAME 1\r\n",
         "END_FRAME 2  ", "\r\nASCII_DATA @@\r\n"}) {
     EXPECT_NE(text.find(line), std::string::npos) << line << " in\n" << text;

@@ -56,6 +56,10 @@ TEST(Settings, RefusesATextWhereANumberIsExpected) {
   EXPECT_THROW(settings.number("peak", {}), InputError);
 }
 
+TEST(Settings, QuoteOnlyTheBeginningOfAFileOfAnotherKind) {
+  EXPECT_LT(messageOf([] { Settings::fromText(std::string(5000, 'a'), "table.csv"); }).size(), 200u);
+}
+
 TEST(Settings, RefusesAnUnknownKeyOfANestedSection) {
   const auto settings = Settings::fromText("chamber: {rate: 3, raet: 4}", "rig.yaml");
   settings.section("chamber").number("rate", kRate);

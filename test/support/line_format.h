@@ -27,7 +27,9 @@ class LineFile : public fsr::exports::ScanSink {
 
 /// Its entry for the table of formats.
 inline fsr::exports::ScanFormat lineFormat() {
-  const auto open = [](const std::string& output) { return std::make_unique<LineFile>(output); };
+  const auto open = [](const std::string& output, const fsr::exports::StatisticsOptions&) {
+    return std::make_unique<LineFile>(output);
+  };
   return {"lines", "one line for each scan: time [s] and counts", true, open};
 }
 

@@ -30,6 +30,12 @@ struct RegionStatistics {
   AlarmState alarm = AlarmState::kUnknown;
 };
 
+/// Whether a taxel is in contact: its pressure is at least `threshold` [Pa], and not below its turn-on
+/// pressure.
+constexpr bool inContact(double pressure, std::uint16_t flags, double threshold) {
+  return pressure >= threshold && (flags & taxel_flag::kBelowRange) == 0;
+}
+
 /// Summary of one map. A taxel is in contact at `contact_threshold` [Pa] and above, unless it is below its
 /// turn-on pressure. `areas`: areas of the taxels on the bent sheet (view: taxelAreas) [rows x columns],
 /// row-major [m^2]. The force is the sum of pressure x area. Each taxel's force points along its own normal,

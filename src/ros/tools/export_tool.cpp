@@ -22,7 +22,7 @@ fsr::settings::CommandLine options(const std::vector<ScanFormat>& formats) {
   std::ostringstream purpose;
   purpose << "Writes a recording in a format that other programs read without ROS. FORMAT is\n";
   for (const ScanFormat& format : formats) {
-    purpose << "  " << std::left << std::setw(8) << format.name << " " << format.summary << "\n";
+    purpose << "  " << std::left << std::setw(10) << format.name << " " << format.summary << "\n";
   }
   purpose << "docs/exports.md describes every column and dataset.";
   fsr::settings::CommandLine line("export", "BAG... --to FORMAT --output PATH", purpose.str());
@@ -32,7 +32,13 @@ fsr::settings::CommandLine options(const std::vector<ScanFormat>& formats) {
       .option("from", "S", "start, in seconds since the first scan (0)")
       .option("until", "S", "end, in seconds since the first scan (all)")
       .option("rate", "HZ", "largest number of scans a second (all)")
-      .option("map", "TOPIC", "topic of the maps, if a bag holds several (pressure_map)");
+      .option("map", "TOPIC", "topic of the maps, if a bag holds several (pressure_map)")
+      .input("regions", "FILE", "statistics, trial: regions of the sheet (whole matrix alone)")
+      .option("unit", "UNIT",
+              "statistics, trial: pressures in kPa or mmHg, also those of --contact and --above (kPa)")
+      .option("contact", "P", "statistics, trial: a taxel is in contact from this pressure on (10 kPa)")
+      .option("above", "P", "trial: pressure for the time above it")
+      .option("step-force", "N", "trial: force on the whole matrix from which a step counts (found)");
   return addBagOptions(line);
 }
 
@@ -54,13 +60,31 @@ ScanSelection selectionOf(const fsr::settings::CommandLine& line) {
   return selection;
 }
 
+fsr::exports::StatisticsOptions statisticsOf(const fsr::settings::CommandLine& line,
+                                             const std::string& format) {
+  if (format != "trial") line.refuse({"above", "step-force"}, "goes with --to trial");
+  if (format != "trial" && format != "statistics")
+    line.refuse({"regions", "unit", "contact"}, "goes with --to statistics or --to trial");
+  fsr::exports::StatisticsOptions options;
+  options.regions = line.text("regions", "");
+  const std::string unit = line.choice("unit", fsr::view::pressureUnitNames(), fsr::view::name(options.unit));
+  options.unit = fsr::view::pressureUnitOf(unit);
+  const double pascals = fsr::view::pascals(options.unit);
+  const fsr::settings::Range range{0, 1e7 / pascals, unit};
+  options.contact_threshold = pascals * line.number("contact", options.contact_threshold / pascals, range);
+  options.above = pascals * line.number("above", options.above / pascals, range);
+  options.step_force = line.number("step-force", options.step_force, {0, 1e6, "N"});
+  return options;
+}
+
 void writeScans(const ScanFormat& format, const fsr::settings::CommandLine& line, std::ostream& out) {
   if (!format.several_recordings && line.files().size() != 1) {
     throw fsr::settings::InputError("--to " + format.name + " takes one file, but " +
                                     std::to_string(line.files().size()) + " are given");
   }
   const ScanSelection selection = selectionOf(line);
-  const std::unique_ptr<fsr::exports::ScanSink> sink = format.open(line.requiredText("output"));
+  const std::unique_ptr<fsr::exports::ScanSink> sink =
+      format.open(line.requiredText("output"), statisticsOf(line, format.name));
   std::size_t scans = 0;
   for (const std::string& bag : line.files()) scans += sendScans(bag, selection, *sink);
   if (scans == 0) {

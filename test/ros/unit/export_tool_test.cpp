@@ -270,15 +270,82 @@ TEST_F(ExportTool, WritesHdf5OfABagWithoutMapsAndWithACalibration) {
             "100 scans written to " + file + "\n");
 }
 
+// Statistics by region, computed again by numpy from the table of taxels. A taxel has 1 cm2, 1e-5 less on the
+// cylinder.
+TEST_F(ExportTool, NumpyFindsTheStatisticsOfTheRegions) {
+  const std::string maps = withMaps(), regions = folder_.path("regions.yaml");
+  std::ofstream(regions) << "regions:\n  - {name: left, rows: [0, 1], columns: [0, 1]}\n";
+  run({maps, "--to", "csv", "--output", csv_});
+  const std::string statistics = folder_.path("statistics.csv"), trial = folder_.path("trial.csv");
+  EXPECT_EQ(
+      run({maps, "--to", "statistics", "--regions", regions, "--contact", "30", "--output", statistics}),
+      "1000 scans written to " + statistics + "\n");
+  EXPECT_EQ(run({maps, "--to", "trial", "--regions", regions, "--contact", "30", "--above", "50", "--output",
+                 trial}),
+            "1000 scans written to " + trial + "\n");
+  EXPECT_EQ(run({maps, "--to", "statistics", "--unit", "mmHg", "--output", folder_.path("all.h5")}),
+            "1000 scans written to " + folder_.path("all.h5") + "\n");
+  std::ofstream(folder_.path("compare.py")) << R"(
+import csv, importlib.util, sys
+import numpy as np
+taxels, statistics, trial = ([row for row in csv.DictReader(open(path))] for path in sys.argv[1:4])
+p = np.array([float(row['pressure_Pa']) for row in taxels]).reshape(1000, 2, 3) / 1e3
+t = np.array([float(row['time_s']) for row in taxels]).reshape(1000, 6)[:, 0]
+step = np.diff(t) * (np.diff(t) <= 1)
+def integral(y): return (step * (y[1:] + y[:-1]) / 2).sum()
+for name, part in (('whole_matrix', p), ('left', p[:, :, :2])):
+    part = part.reshape(1000, -1)
+    rows = [row for row in statistics if row['region'] == name]
+    contact = part >= 30
+    force = (part * contact).sum(axis=1) / 10  # kPa cm2 = 0.1 N
+    for column, values in (('peak_kPa', part.max(axis=1)), ('mean_kPa', part.mean(axis=1)), ('force_N', force),
+                           ('contact_area_cm2', contact.sum(axis=1)),
+                           ('force_deviation_N', np.where(contact.any(axis=1), contact.sum(axis=1) / 10, np.nan))):
+        ours = np.array([np.nan if row[column] == 'NA' else float(row[column]) for row in rows])
+        np.testing.assert_allclose(ours, values, rtol=3e-5, err_msg=name + column)
+    np.testing.assert_allclose(float(rows[-1]['integral_kPa_s']), max(integral(part[:, k]) for k in range(part.shape[1])), rtol=3e-5)
+    row = next(row for row in trial if row['region'] == name and row['step'] == '0')
+    for column, value in (('peak_kPa', part.max()), ('force_N', force.max()), ('impulse_N_s', integral(force)),
+                          ('peak_integral_kPa_s', integral(part.max(axis=1))),
+                          ('contact_time_s', integral(contact.any(axis=1) * 1.0)),
+                          ('time_above_s', integral((part.max(axis=1) >= 50) * 1.0))):
+        np.testing.assert_allclose(float(row[column]), value, rtol=3e-5, err_msg=name + column)
+if importlib.util.find_spec('h5py'):
+    import h5py
+    f = h5py.File(sys.argv[4])['statistics']
+    np.testing.assert_allclose(f['peak'][:], p.reshape(1000, 6).max(axis=1) / 0.133322387415, rtol=1e-6)
+    assert (f['peak'].attrs['unit'], f['region'][0], len(f)) == (b'mmHg', b'whole_matrix', 25)
+print(len([row for row in trial if row['region'] == 'left' and row['step'] != '0']), 'steps')
+)";
+  const auto python =
+      test_support::outputOf("/usr/bin/python3 " + folder_.path("compare.py") + " " + csv_ + " " +
+                             statistics + " " + trial + " " + folder_.path("all.h5") + " 2>&1");
+  EXPECT_EQ(python.text, "10 steps\n") << "one for each cycle";
+}
+
+TEST_F(ExportTool, StatisticsNeedMapsAndTheirOwnOptions) {
+  const auto said = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {bag_, "--output", csv_, "--to"};
+    words.insert(words.end(), more.begin(), more.end());
+    return run(words);
+  };
+  EXPECT_NE(said({"statistics"}).find("1_flat.bag: holds no pressure maps; give the calibration"),
+            std::string::npos);
+  EXPECT_NE(said({"csv", "--unit", "kPa"}).find("--unit"), std::string::npos);
+  EXPECT_NE(said({"statistics", "--above", "50"}).find("--above"), std::string::npos);
+  EXPECT_NE(said({"trial", "--unit", "psi"}).find("psi"), std::string::npos);
+  EXPECT_FALSE(fs::exists(csv_));
+}
+
 TEST_F(ExportTool, LeavesNoFileWhenTheDiskIsFull) {
   const std::string maps = withMaps();
   const std::size_t before = files();
   const test_support::FileSizeLimit limit(20000);
-  for (const char* format : {"hdf5", "csv", "tekscan"}) {
-    const std::string path = folder_.path("full");
-    EXPECT_NE(
-        run({maps, "--to", format, "--output", path}).find(path + ": cannot be written (File too large)"),
-        std::string::npos)
+  for (const std::string format : {"hdf5", "csv", "tekscan", "statistics", "statistics.h5"}) {
+    const std::string path = folder_.path(format == "statistics.h5" ? "full.h5" : "full");
+    EXPECT_NE(run({maps, "--to", format.substr(0, format.find('.')), "--output", path})
+                  .find(path + ": cannot be written (File too large)"),
+              std::string::npos)
         << format;
     EXPECT_EQ(files(), before) << format;
   }
@@ -299,7 +366,7 @@ TEST_F(ExportTool, OffersAFormatFromOutsideThePackage) {
   for (std::size_t taxel = 0; taxel < 6; ++taxel) first += " " + std::to_string(recording_.scan(0)[taxel]);
   EXPECT_EQ(line, first);
 
-  EXPECT_NE(run({"--help"}, formats).find("lines    one line for each scan"), std::string::npos);
+  EXPECT_NE(run({"--help"}, formats).find("lines      one line for each scan"), std::string::npos);
   EXPECT_NE(run({bag_, "--to", "pdf", "--output", output}, formats).find("lines"), std::string::npos);
   EXPECT_NE(run({bag_, "--to", "lines", "--output", output}).find("must be one of"), std::string::npos);
 }
@@ -311,7 +378,8 @@ TEST_F(ExportTool, RefusesUnusableInputInOneSentenceAndLeavesNothing) {
     return run(words);
   };
   EXPECT_EQ(refusal({folder_.path("none.bag")}), folder_.path("none.bag") + ": there is no such file");
-  EXPECT_EQ(refusal({bag_}, "pdf"), "--to is \"pdf\", but must be one of csv, hdf5, tekscan");
+  EXPECT_EQ(refusal({bag_}, "pdf"),
+            "--to is \"pdf\", but must be one of csv, statistics, trial, hdf5, tekscan");
   EXPECT_NE(refusal({bag_, "--namespace", "left"}).find("holds no topic /left/raw"), std::string::npos);
   EXPECT_NE(refusal({bag_, "--map", "map_b"}).find("holds no topic map_b, but /fsr/"), std::string::npos);
   EXPECT_NE(refusal({bag_, "--from", "500"}).find("holds no scan between"), std::string::npos);
