@@ -43,6 +43,7 @@ NOT_RUN = {
     "sudo ": "changes the system; test/packaging/bare_system installs the packages",
     "export ROS_": "the addresses of two computers; ros.two_machines",
     "scripts/install_packages": "changes the system",
+    "scripts/align": "needs a table of another system; scripts.align",
     "scripts/compare_history": "computes for minutes",
     "scripts/package": "builds the packages; test/packaging/bare_system",
     "scripts/demo": "builds and measures for minutes",
