@@ -44,6 +44,7 @@ NOT_RUN = {
     "export ROS_": "the addresses of two computers; ros.two_machines",
     "scripts/install_packages": "changes the system",
     "scripts/align": "needs a table of another system; scripts.align",
+    "scripts/draw_map": "needs a file of export --to hdf5; scripts.draw_map",
     "scripts/import_maps": "needs a file of another system; scripts.import_maps",
     "scripts/compare_history": "computes for minutes",
     "scripts/package": "builds the packages; test/packaging/bare_system",
