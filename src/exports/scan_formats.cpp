@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "exports/pliance_file.h"
 #include "exports/row_table.h"
 #include "exports/scan_table.h"
 #include "exports/statistics_table.h"
@@ -23,11 +24,20 @@ std::unique_ptr<ScanSink> withOptions(const std::string& output, const Statistic
   return std::make_unique<Sink>(output, options);
 }
 
-std::unique_ptr<ScanSink> openTekscan(const std::string& output, const StatisticsOptions& options) {
-  if (std::filesystem::path(output).extension() == ".gz") {
+// Of a file whose header is completed at its end.
+void requireUncompressed(const std::string& output) {
+  if (std::filesystem::path(output).extension() == ".gz")
     throw settings::InputError("--output is " + output + ", but only tables can be compressed");
-  }
+}
+
+std::unique_ptr<ScanSink> openTekscan(const std::string& output, const StatisticsOptions& options) {
+  requireUncompressed(output);
   return opened<TekscanFile>(output, options);
+}
+
+std::unique_ptr<ScanSink> openPliance(const std::string& output, const StatisticsOptions& options) {
+  requireUncompressed(output);
+  return withOptions<PlianceFile>(output, options);
 }
 
 }  // namespace
@@ -41,7 +51,8 @@ const std::vector<ScanFormat>& scanFormats() {
       {"trial", "table with a row for each region of a recording, and of each step in it (.h5: HDF5)", true,
        withOptions<TrialTable>},
       {"hdf5", "datasets with an entry for each scan (h5py, MATLAB, R)", false, opened<ScanTable>},
-      {"tekscan", "ASCII as Tekscan's I-Scan and F-Scan save it (*.asf)", false, openTekscan}};
+      {"tekscan", "ASCII as Tekscan's I-Scan and F-Scan save it (*.asf)", false, openTekscan},
+      {"pliance", "ASCII as novel's pliance saves it (*.asc); needs maps", false, openPliance}};
   return formats;
 }
 

@@ -379,7 +379,7 @@ TEST_F(ExportTool, RefusesUnusableInputInOneSentenceAndLeavesNothing) {
   };
   EXPECT_EQ(refusal({folder_.path("none.bag")}), folder_.path("none.bag") + ": there is no such file");
   EXPECT_EQ(refusal({bag_}, "pdf"),
-            "--to is \"pdf\", but must be one of csv, statistics, trial, hdf5, tekscan");
+            "--to is \"pdf\", but must be one of csv, statistics, trial, hdf5, tekscan, pliance");
   EXPECT_NE(refusal({bag_, "--namespace", "left"}).find("holds no topic /left/raw"), std::string::npos);
   EXPECT_NE(refusal({bag_, "--map", "map_b"}).find("holds no topic map_b, but /fsr/"), std::string::npos);
   EXPECT_NE(refusal({bag_, "--from", "500"}).find("holds no scan between"), std::string::npos);
