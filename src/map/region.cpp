@@ -97,6 +97,14 @@ std::vector<Region> readRegions(const std::string& yaml, const std::string& orig
   return readAll(settings::Settings::fromText(yaml, origin), size);
 }
 
+std::vector<std::string> regionNames(const std::string& path) {
+  const settings::Settings settings = settings::Settings::fromFile(path);
+  std::vector<std::string> names(1);
+  if (!settings.has("regions")) return names;
+  for (const settings::Settings& entry : settings.sections("regions")) names.push_back(entry.text("name"));
+  return names;
+}
+
 namespace {
 
 using namespace taxel_flag;

@@ -16,7 +16,7 @@ import rospkg
 import rospy
 import rosservice
 import rostest
-from fsr_pressure_map.msg import CalibrationInfo, MatrixInfo, PressureMap, PressureStatisticsArray, SurfaceCurvature
+from fsr_pressure_map.msg import CalibrationInfo, MatrixInfo, PressureMap, PressureStatistics, PressureStatisticsArray, SurfaceCurvature
 
 PACKAGE = pathlib.Path(rospkg.RosPack().get_path("fsr_pressure_map"))
 PROGRAMS = pathlib.Path(os.environ["CMAKE_PREFIX_PATH"].split(":")[0]) / "lib" / "fsr_pressure_map"
@@ -159,6 +159,8 @@ class LaunchFilesTest(unittest.TestCase):
         self.wait_for(lambda: arrays and len(arrays[-1].regions) == 2, rig)  # the regions are known from the first map on
         subscriber.unregister()
         self.assertNotIn(3, [region.alarm for region in arrays[-1].regions], "3: no alarm set")
+        toe = rospy.wait_for_message("/fsr/regions/toe", PressureStatistics, PATIENCE)
+        self.assertEqual((toe.region, toe.total_area > 0), ("toe", True))
 
     def recorded_beside(self, rig):
         """A recording beside calibrated.launch, its button, its end, and its replay on the same roscore."""

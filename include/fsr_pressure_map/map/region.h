@@ -51,6 +51,8 @@ struct Region {
 std::vector<Region> readRegionFile(const std::string& path, matrix::MatrixSize size);
 /// Reads the same from text. `origin`: name that messages give instead of a file.
 std::vector<Region> readRegions(const std::string& yaml, const std::string& origin, matrix::MatrixSize size);
+/// The names in a region file, "" first, whatever the size of the matrix. Throws InputError.
+std::vector<std::string> regionNames(const std::string& path);
 
 /// What one map shows of an alarm's region.
 struct AlarmEvidence {

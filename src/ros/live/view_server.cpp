@@ -10,6 +10,7 @@
 #include <visualization_msgs/MarkerArray.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -73,6 +74,7 @@ class ViewServer {
                          const std::vector<fsr::map::RegionStatistics>& regions);
   void publishCentre(const std_msgs::Header& header, const fsr::map::RegionStatistics& whole);
   void reportSilence();
+  void advertiseRegions();
   void prepare(const fsr::matrix::Layout& layout);
   void onAlarmSet();
   const fsr::map::RegionStatistics& whole() const { return now_.front(); }
@@ -80,6 +82,7 @@ class ViewServer {
   ros::NodeHandle handle_;
   ViewSettings settings_;
   std::map<std::string, ros::Publisher> outputs_;
+  ros::SubscriberStatusCallback follow_ = [this](const auto&) { followSubscribers(); };
   ros::Subscriber maps_;
   ros::Subscriber curvature_;
   ros::WallTimer silence_;
@@ -141,18 +144,39 @@ ViewServer::ViewServer(const ros::NodeHandle& handle, const ros::NodeHandle& pri
       statistics_({}, 0),
       alarms_(handle, private_handle, settings_, [this] { onAlarmSet(); }),
       auto_range_(std::max(10e3, 1.5 * settings_.style.scale.low)) {
-  const ros::SubscriberStatusCallback follow = [this](const auto&) { followSubscribers(); };
   const std::uint32_t queue = settings_.queue_size;
-  outputs_["points"] = handle_.advertise<sensor_msgs::PointCloud2>("points", queue, follow, follow);
-  outputs_["surface"] = handle_.advertise<visualization_msgs::MarkerArray>("surface", queue, follow, follow);
-  outputs_["image"] = handle_.advertise<sensor_msgs::Image>("image", queue, follow, follow);
+  outputs_["points"] = handle_.advertise<sensor_msgs::PointCloud2>("points", queue, follow_, follow_);
+  outputs_["surface"] =
+      handle_.advertise<visualization_msgs::MarkerArray>("surface", queue, follow_, follow_);
+  outputs_["image"] = handle_.advertise<sensor_msgs::Image>("image", queue, follow_, follow_);
   outputs_["statistics"] =
-      handle_.advertise<fsr_pressure_map::PressureStatisticsArray>("statistics", queue, follow, follow);
+      handle_.advertise<fsr_pressure_map::PressureStatisticsArray>("statistics", queue, follow_, follow_);
   outputs_["centre_of_pressure"] =
-      handle_.advertise<geometry_msgs::PointStamped>("centre_of_pressure", queue, follow, follow);
+      handle_.advertise<geometry_msgs::PointStamped>("centre_of_pressure", queue, follow_, follow_);
+  advertiseRegions();
   silence_ = handle_.createWallTimer(ros::WallDuration(0.5 * settings_.stale_after),
                                      [this](const ros::WallTimerEvent&) { reportSilence(); });
   followSubscribers();
+}
+
+// Topic of one region, with its name as far as a topic may have it.
+std::string regionTopic(const std::string& region) {
+  if (region.empty()) return "regions/whole_matrix";
+  std::string name = "regions/";
+  for (const char c : region) name += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
+  return name;
+}
+
+// A topic for each region: programs that plot numbers find no region in an array.
+void ViewServer::advertiseRegions() {
+  std::vector<std::string> names = {""};
+  try {
+    if (!settings_.regions.empty()) names = fsr::map::regionNames(settings_.regions);
+  } catch (const fsr::settings::InputError&) {  // prepare() says it
+  }
+  for (const std::string& name : names)
+    outputs_[regionTopic(name)] = handle_.advertise<fsr_pressure_map::PressureStatistics>(
+        regionTopic(name), settings_.queue_size, follow_, follow_);
 }
 
 void ViewServer::onAlarmSet() {
@@ -219,7 +243,7 @@ void ViewServer::prepare(const fsr::matrix::Layout& layout) {
 }
 
 void ViewServer::publish(const fsr_pressure_map::PressureMap& message, const fsr::map::PressureMap& map) {
-  if (wanted("statistics")) publishStatistics(message.header, now_);
+  publishStatistics(message.header, now_);
   if (wanted("centre_of_pressure")) publishCentre(message.header, whole());
   if (wanted("points")) {
     sensor_msgs::PointCloud2 cloud = toPoints(map, shape_.poses());
@@ -262,8 +286,13 @@ void ViewServer::publishStatistics(const std_msgs::Header& header,
   array.header = header;
   fsr::matrix::Layout layout;
   layout.size = size_;
-  for (const fsr::map::RegionStatistics& region : regions) array.regions.push_back(toMessage(region, layout));
-  outputs_["statistics"].publish(array);
+  for (const fsr::map::RegionStatistics& region : regions) {
+    array.regions.push_back(toMessage(region, layout));
+    const auto own = outputs_.find(regionTopic(region.region));
+    if (own != outputs_.end() && own->second.getNumSubscribers() > 0)
+      own->second.publish(array.regions.back());
+  }
+  if (wanted("statistics")) outputs_["statistics"].publish(array);
 }
 
 void ViewServer::publishCentre(const std_msgs::Header& header, const fsr::map::RegionStatistics& whole) {
@@ -299,7 +328,7 @@ void ViewServer::reportSilence() {
   header.frame_id = frame_id_;
   now_ = statistics_.stale();
   alarms_.note(header, now_);
-  if (wanted("statistics")) publishStatistics(header, now_);
+  publishStatistics(header, now_);
   publishStopped();
 }
 
