@@ -1,0 +1,75 @@
+// Plants faults into the readings of a synthetic sheet and checks what is found, and that a recording and
+// live scans are judged by one rule.
+#include "health/faults.h"
+
+#include <gtest/gtest.h>
+
+#include "health/reading_rule.h"
+#include "health/recorded.h"
+
+namespace fsr::health {
+namespace {
+
+using map::taxel_flag::kDead;
+using map::taxel_flag::kStuck;
+
+std::vector<Fault> faultsOf(const dataset::Recording& recording) {
+  Sheet sheet{recording.layout, double(recording.full_scale), {}, std::vector<bool>(20, true)};
+  sheet.stays.push_back({&recording, 0, recording.scans(), 0, 0, {}});
+  for (std::size_t i = 0; i < recording.scans(); ++i)
+    sheet.stays[0].rising.push_back(i > 0 && recording.pressure[i] > recording.pressure[i - 1]);
+  return findFaults(sheet).faults;
+}
+
+// Sets the readings of the taxels in the middle tenth of the recording.
+template <typename Value>
+dataset::Recording failing(const std::vector<std::size_t>& taxels, Value value) {
+  dataset::Recording recording = recorded();
+  for (std::size_t i = recording.scans() * 45 / 100; i < recording.scans() * 55 / 100; ++i)
+    for (const std::size_t t : taxels)
+      recording.counts[i * 20 + t] = static_cast<std::uint16_t>(value(recording.counts[i * 20 + t]));
+  return recording;
+}
+
+TEST(FaultsOfASheet, AreNoneOnAHealthyOne) {
+  EXPECT_TRUE(faultsOf(recorded()).empty());
+}
+
+TEST(FaultsOfASheet, AreNamedWithTheirTimes) {
+  const std::vector<Fault> dead = faultsOf(failing({7}, [](int) { return 0; }));
+  ASSERT_EQ(dead.size(), 1u);
+  EXPECT_EQ(dead[0].id(), "dead_taxel");
+  EXPECT_EQ(dead[0].taxels, std::vector<std::size_t>{7});
+  EXPECT_LE(dead[0].share, 0.11);
+  const std::vector<Fault> stuck = faultsOf(failing({13}, [](int) { return 1400; }));
+  ASSERT_EQ(stuck.size(), 1u);
+  EXPECT_EQ(stuck[0].id(), "stuck_taxel");
+}
+
+TEST(FaultsOfASheet, AreOfNoKindWhereTheTaxelStillFollowsTheLoad) {
+  EXPECT_TRUE(faultsOf(failing({7}, [](int count) { return count / 2; })).empty());
+}
+
+// The median of a line counts, so one taxel makes no line.
+TEST(FaultsOfASheet, AreLinesOnlyWhereTheirTaxelsFailTogether) {
+  const auto half = [](int count) { return count / 2; };
+  const std::vector<Fault> row = faultsOf(failing({5, 6, 7, 8, 9}, half));
+  ASSERT_EQ(row.size(), 1u);
+  EXPECT_EQ(row[0].id(), "row_fault");
+  EXPECT_EQ(row[0].line, 1u);
+  for (const Fault& fault : faultsOf(failing({7, 12}, half))) EXPECT_FALSE(fault.isLine()) << fault.id();
+}
+
+TEST(ReadingRule, CallsATaxelDeadOrStuckOnlyByWhatTheOthersDo) {
+  constexpr Others kNothing{}, kLoaded{true, false, false}, kMoved{true, true, false}, kAll{true, true, true};
+  EXPECT_EQ(verdictOf({0, 3, 4, 0, 4095}, kNothing), std::nullopt);
+  EXPECT_EQ(verdictOf({0, 3, 4, 0, 4095}, kLoaded), kDead);
+  EXPECT_EQ(verdictOf({812, 812, 4, 0, 4095}, kLoaded), std::nullopt);
+  EXPECT_EQ(verdictOf({812, 812, 4, 0, 4095}, kMoved), kStuck);
+  EXPECT_EQ(verdictOf({812, 813, 4, 0, 4095}, kMoved), 0);
+  EXPECT_EQ(verdictOf({4095, 4095, 4, 0, 4095}, kMoved), std::nullopt);
+  EXPECT_EQ(verdictOf({4095, 4095, 4, 0, 4095}, kAll), kStuck);
+}
+
+}  // namespace
+}  // namespace fsr::health
