@@ -106,7 +106,7 @@ void Investigation::detectFaults() {
                                [](const health::Fault& fault) { return fault.isLine(); }) &&
                    humOfAll();
   for (const health::Fault& fault : faults.faults) {
-    if (!sought(fault.id()) || (hum && fault.isLine())) continue;
+    if (!sought(effectOf(fault).id) || (hum && fault.isLine())) continue;
     detections_.push_back(detectionOf(fault, faults.readings));
     for (const std::size_t t : fault.taxels) measured_.used[t] = 0;
   }

@@ -467,11 +467,6 @@ Faults FaultSearch::run(const FaultProgress& progress) {
 
 }  // namespace
 
-std::string Fault::id() const {
-  constexpr const char* kIds[] = {"stuck_taxel", "dead_taxel", "row_fault", "column_fault"};
-  return kIds[static_cast<std::size_t>(kind)];
-}
-
 Faults findFaults(const Sheet& sheet, const FaultOptions& options, const FaultProgress& progress) {
   return FaultSearch(sheet, options).run(progress);
 }

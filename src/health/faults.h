@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <functional>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -46,8 +45,6 @@ struct Fault {
   double p = 1;                                  ///< of its test, corrected for all taxels or lines
 
   bool isLine() const { return kind == FaultKind::kRow || kind == FaultKind::kColumn; }
-  /// "stuck_taxel", "dead_taxel", "row_fault" or "column_fault".
-  std::string id() const;
 };
 
 struct Faults {

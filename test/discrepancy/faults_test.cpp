@@ -26,7 +26,7 @@ TEST(Faults, ADeadTaxelIsNoStuckOne) {
   const std::vector<health::Fault> faults =
       faultsOf(planted::problem(planted::kTwoSpeeds, "  dead_taxel: {taxels: 1, first: 5, start: 700}\n"));
   ASSERT_EQ(faults.size(), 1u);
-  EXPECT_EQ(faults[0].id(), "dead_taxel");
+  EXPECT_EQ(effectOf(faults[0]).id, "dead_taxel");
   EXPECT_EQ(faults[0].taxels, std::vector<std::size_t>{5});
   EXPECT_LE(faults[0].p, 0.01);
 }
@@ -35,7 +35,7 @@ TEST(Faults, ALineIsFoundWithItsSpells) {
   const std::vector<health::Fault> faults = faultsOf(
       planted::problem(planted::kTwoSpeeds, "  row_fault: {share: 0.04, line: 1, burst: 3, depth: 0.7}\n"));
   ASSERT_EQ(faults.size(), 1u);
-  EXPECT_EQ(faults[0].id(), "row_fault");
+  EXPECT_EQ(effectOf(faults[0]).id, "row_fault");
   EXPECT_EQ(faults[0].line, 1u);
   EXPECT_GT(faults[0].share, 0.01);
   EXPECT_LT(faults[0].share, 0.08);
@@ -46,7 +46,7 @@ TEST(Faults, AColumnOfThreeIsNotThreeTaxels) {
   const std::vector<health::Fault> faults = faultsOf(planted::problem(
       planted::kTwoSpeeds, "  column_fault: {share: 0.04, line: 1, burst: 3, depth: 0.7}\n"));
   ASSERT_EQ(faults.size(), 1u);
-  EXPECT_EQ(faults[0].id(), "column_fault");
+  EXPECT_EQ(effectOf(faults[0]).id, "column_fault");
   EXPECT_EQ(faults[0].line, 1u);
 }
 
@@ -54,7 +54,7 @@ TEST(Faults, AColumnOfThreeIsNotThreeTaxels) {
 TEST(Faults, ALoopOfOneRowIsNoLooseContact) {
   const std::vector<health::Fault> faults = faultsOf(
       planted::problem(planted::kTwoSpeeds, "  hysteresis: {loop_width: 0.08, only_taxels: [4, 5, 6, 7]}\n"));
-  EXPECT_TRUE(faults.empty()) << faults.front().id();
+  EXPECT_TRUE(faults.empty()) << effectOf(faults.front()).id;
 }
 
 TEST(Faults, WhatIsSmallerThanTheLeastGapIsNone) {

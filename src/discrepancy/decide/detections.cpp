@@ -299,7 +299,7 @@ simulation::EnabledEffect usualValues(const std::string& id) {
 
 // The effect and the parameter values with which a simulation shows the fault.
 simulation::EnabledEffect asEffect(const health::Fault& fault) {
-  simulation::EnabledEffect effect = usualValues(fault.id());
+  simulation::EnabledEffect effect = usualValues(effectOf(fault).id);
   const auto set = [&](const char* name, double value) {
     const auto found = effect.values.find(name);
     if (found == effect.values.end()) return;
@@ -322,7 +322,7 @@ simulation::EnabledEffect asEffect(const health::Fault& fault) {
 }  // namespace
 
 Detection detectionOf(const health::Fault& fault, const FaultyReadings& readings) {
-  Detection detection = plain(simulation::findEffect(fault.id())->info, zOf(fault.p));
+  Detection detection = plain(effectOf(fault), zOf(fault.p));
   detection.enable = {asEffect(fault)};
   detection.where.taxels = fault.taxels;
   detection.where.conditions = readings.conditions;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "simulation/effects/effect_library.h"
+
 namespace fsr::discrepancy {
 
 namespace {
@@ -92,6 +94,20 @@ Faults findFaults(const Measured& measured, const DiscrepancyOptions& options,
   limits.least_error = leastGap(measured, options) / pressureRange(measured);
   const health::Faults found = health::findFaults(sheetOf(measured), limits, progress);
   return {found.faults, readingsOf(measured, found)};
+}
+
+const simulation::EffectInfo& effectOf(const health::Fault& fault) {
+  using simulation::Detector;
+  switch (fault.kind) {
+    case health::FaultKind::kStuckTaxels:
+      return simulation::foundBy(Detector::kStuckTaxels);
+    case health::FaultKind::kDeadTaxels:
+      return simulation::foundBy(Detector::kDeadTaxels);
+    case health::FaultKind::kRow:
+      return simulation::foundBy(Detector::kRowFaults);
+    default:
+      return simulation::foundBy(Detector::kColumnFaults);
+  }
 }
 
 }  // namespace fsr::discrepancy

@@ -19,7 +19,7 @@ struct FaultyReadings {
 };
 
 struct Faults {
-  std::vector<health::Fault> faults;  ///< at most one of each id
+  std::vector<health::Fault> faults;  ///< at most one of each kind
   FaultyReadings readings;
 };
 
@@ -30,5 +30,8 @@ double leastGap(const Measured& measured, const DiscrepancyOptions& options);
 /// leastGap().
 Faults findFaults(const Measured& measured, const DiscrepancyOptions& options,
                   const health::FaultProgress& progress = {});
+
+/// The effect that shows such a fault.
+const simulation::EffectInfo& effectOf(const health::Fault& fault);
 
 }  // namespace fsr::discrepancy
