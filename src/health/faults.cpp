@@ -1,8 +1,10 @@
 #include "health/faults.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <optional>
 
@@ -17,7 +19,7 @@ namespace {
 constexpr std::size_t kFewestOfALine = 3;                          // taxels; fewer are no line
 constexpr std::size_t kFewestForQuartiles = 8;                     // taxels; fewer have no quartiles
 constexpr std::size_t kFewestLines = 3;                            // fewer have no neighbours
-const std::vector<std::size_t> kSpansOfSteps = {2, 4, 8, 16, 32};  // scans on each side of a step
+const std::vector<std::size_t> kSpansOfSteps = {2, 4, 8, 16, 32};  // scans beside a step
 // Quantiles of Gumbel's standard distribution: median, and difference of the quartiles.
 constexpr double kGumbelMedian = 0.36651, kGumbelQuartiles = 1.57253;
 // Least scale of the logarithm of the taxels' largest deviations: they differ by some per cent by chance
@@ -37,7 +39,7 @@ constexpr double kOfOneKind = 0.7;
 // Share of the squared deviations of a line that the direction explains at the same reading. A line that does
 // the same in every cycle has a loop or a lag; a contact fails at any time.
 constexpr double kLoop = 0.3;
-constexpr double kReadingBin = 0.1;  // of the taxel's range
+constexpr double kReadingBin = 0.1;  // of the range of the median reading
 constexpr double kOwnStep = 0.5;     // of a line, per step of it less the lines beside it
 constexpr double kTogether = 0.5;    // share of the scans in which the taxels of a line fail together
 
@@ -52,32 +54,77 @@ std::size_t lineOf(const matrix::Layout& layout, FaultKind kind, std::size_t tax
 }
 
 // Deviations of a taxel, or of a line from those beside it, [stays][scans].
-using Course = std::vector<Eigen::VectorXd>;
+using Course = std::vector<std::vector<float>>;
 
-// Calls use(stay, place, mean) for the mean of a course over each `span` scans. With `steps`: over the scans
-// from a place on, less that over the scans before it.
-template <typename Use>
-void eachMean(const Course& course, std::size_t span, bool steps, Use use) {
-  const Eigen::Index reach = span, before = steps ? reach : 0;
-  for (std::size_t v = 0; v < course.size(); ++v) {
-    Eigen::VectorXd sum = Eigen::VectorXd::Zero(course[v].size() + 1);
-    for (Eigen::Index i = 0; i < course[v].size(); ++i) sum[i + 1] = sum[i] + course[v][i];
-    for (Eigen::Index at = before; at + reach < sum.size(); ++at)
-      use(v, at, (sum[at + reach] - sum[at] - (sum[at] - sum[at - before])) / double(span));
+// Logarithms of the largest means of some courses, [courses x spans].
+using Largest = Eigen::ArrayXXd;
+
+constexpr double kLeastMean = 1e-6;
+
+// Logarithms of the largest mean of a course over each number of scans.
+Eigen::ArrayXd largestMeans(const Course& course, const std::vector<std::size_t>& spans) {
+  Eigen::ArrayXd most = Eigen::ArrayXd::Constant(Eigen::Index(spans.size()), kLeastMean);
+  for (const std::vector<float>& stay : course) {
+    std::vector<double> sum(stay.size() + 1, 0);
+    for (std::size_t i = 0; i < stay.size(); ++i) sum[i + 1] = sum[i] + double(stay[i]);
+    for (std::size_t s = 0; s < spans.size(); ++s) {
+      for (std::size_t at = 0; at + spans[s] < sum.size(); ++at)
+        most[s] = std::max(most[s], std::abs(sum[at + spans[s]] - sum[at]) / double(spans[s]));
+    }
   }
+  return most.log();
 }
 
-// Logarithm of the largest of these means, for each span.
-std::vector<double> largest(const Course& course, const std::vector<std::size_t>& spans, bool steps) {
-  std::vector<double> largest;
-  for (const std::size_t span : spans) {
-    double most = 1e-6;
-    eachMean(course, span, steps,
-             [&](std::size_t, Eigen::Index, double mean) { most = std::max(most, std::abs(mean)); });
-    largest.push_back(std::log(most));
+// What some courses do, without their scans.
+class CourseSums {
+ public:
+  explicit CourseSums(Eigen::Index courses)
+      : last_(courses, Eigen::Index(2 * kSpansOfSteps.back() + 1)),
+        most_(Eigen::ArrayXXd::Constant(courses, Eigen::Index(kSpansOfSteps.size()), kLeastMean)),
+        squares_(Eigen::ArrayXd::Zero(courses)),
+        between_(squares_) {}
+
+  // `scan` counts from 0 in each stay. `reading`: 0 .. 1 from the lowest to the highest.
+  void add(std::size_t scan, double reading, bool rising, const Eigen::ArrayXd& values) {
+    const auto before = [&](std::size_t back) { return last_.col((scan + 1 - back) % last_.cols()); };
+    if (scan == 0) {
+      finishStay();
+      before(1).setZero();
+    }
+    before(0) = before(1) + values;
+    for (std::size_t s = 0; s < kSpansOfSteps.size() && 2 * kSpansOfSteps[s] <= scan + 1; ++s) {
+      const std::size_t span = kSpansOfSteps[s];
+      most_.col(s) = most_.col(s).max((before(0) - 2 * before(span) + before(2 * span)).abs() / double(span));
+    }
+    Bin& bin = bins_[std::lround(reading / kReadingBin)][rising];
+    if (bin.number == 0) bin.sum.setZero(values.size());
+    bin.sum += values;
+    bin.number += 1;
+    squares_ += values.square();
   }
-  return largest;
-}
+  void finishStay() {
+    for (const auto& [reading, bin] : bins_) {
+      const double a = bin[0].number, b = bin[1].number;
+      if (a > 0 && b > 0) between_ += a * b / (a + b) * (bin[0].sum / a - bin[1].sum / b).square();
+    }
+    bins_.clear();
+  }
+  // Of the mean over each of kSpansOfSteps scans less that over those before.
+  Largest largestSteps() const { return most_.log(); }
+  // Whether the course does the same in every cycle: it differs by direction at the same reading.
+  bool isLoop(Eigen::Index course) const { return between_[course] > kLoop * squares_[course]; }
+
+ private:
+  struct Bin {
+    double number = 0;
+    Eigen::ArrayXd sum;
+  };
+
+  Eigen::ArrayXXd last_;                     // sums of the values up to each of the last scans
+  Eigen::ArrayXXd most_;                     // largest steps, [courses x spans]
+  std::map<long, std::array<Bin, 2>> bins_;  // by reading; falling, rising
+  Eigen::ArrayXd squares_, between_;
+};
 
 // Distribution of a logarithm over the taxels.
 struct Gumbel {
@@ -98,9 +145,9 @@ struct Gumbel {
 
 // Where the largest means of one course are outliers.
 struct Outlier {
-  double p = 1;          // for any span
-  std::size_t span = 0;  // the shortest with an outlier: a longer one also grows beside a spell
-  double limit = 0;      // of the mean over it
+  double p = 1;                     // for any span
+  std::optional<std::size_t> span;  // the shortest with an outlier: a longer one also grows beside a spell
+  double limit = 0;                 // of the mean over it
 };
 
 // Calls use(from, to) for each spell.
@@ -122,11 +169,18 @@ struct FailingTaxel {
   Spells spells;
 };
 
+// A row or column.
+struct Line {
+  FaultKind kind;
+  std::vector<std::size_t> taxels;  // the sound ones
+  std::vector<std::size_t> beside;  // indices of the lines beside it
+  double noise = INFINITY;          // of its contrast, per noise of a taxel
+};
+
 class FaultSearch {
  public:
   FaultSearch(const Sheet& sheet, const FaultOptions& options)
       : sheet_(sheet), options_(options), courses_(taxelCourses(sheet)) {
-    for (const StayCourses& stay : courses_) faults_.squares.emplace_back(stay.scans(), 0);
     for (std::size_t t = 0; t < sheet.used.size(); ++t) {
       if (sheet.used[t]) taxels_.push_back(t);
     }
@@ -134,19 +188,18 @@ class FaultSearch {
   Faults run(const FaultProgress& progress);
 
  private:
-  Course medianOf(const std::vector<std::size_t>& taxels) const;
-  Outlier judge(const std::vector<double>& own, const std::vector<std::vector<double>>& others,
-                const std::vector<std::size_t>& spans, double tests) const;
-  Spells spellsOf(const Course& course, std::size_t span, double limit) const;
+  std::vector<Line> linesOf(const std::vector<FaultKind>& kinds) const;
+  template <typename Use>
+  void eachScan(const std::vector<Line>& lines, Use use) const;
+  CourseSums sumsOf(const std::vector<Line>& lines) const;
+  Outlier judge(const Eigen::ArrayXd& own, const Largest& all, const std::vector<std::size_t>& others,
+                double tests) const;
+  Course courseOf(std::size_t taxel) const;
   void join(std::size_t taxel, Spells& spells) const;
   std::optional<FaultKind> kindOf(std::size_t taxel, const Spells& spells) const;
   std::vector<FailingTaxel> failingTaxels() const;
-  std::vector<std::vector<std::size_t>> linesOf(FaultKind kind) const;
-  Course contrastOf(const std::vector<std::vector<std::size_t>>& lines, const std::vector<Course>& medians,
-                    std::size_t line, double& noise) const;
   bool findLine(const std::vector<FaultKind>& kinds);
   void joinLines(FaultKind kind, const std::vector<FailingTaxel>& failing);
-  bool isLoop(const Course& course, std::size_t taxel) const;
   bool keep(FaultKind kind, double p, const Members& members);
   bool isSound(std::size_t taxel) const { return std::count(taxels_.begin(), taxels_.end(), taxel) > 0; }
 
@@ -157,60 +210,136 @@ class FaultSearch {
   Faults faults_;
 };
 
-// Median deviation of some taxels: what less than half of them do does not count.
-Course FaultSearch::medianOf(const std::vector<std::size_t>& taxels) const {
-  Course course;
-  std::vector<double> values(taxels.size());
-  const auto middle = values.begin() + (taxels.size() / 2);
-  for (const StayCourses& stay : courses_) {
-    course.emplace_back(stay.scans());
-    for (std::size_t i = 0; i < stay.scans(); ++i) {
-      for (std::size_t k = 0; k < taxels.size(); ++k) values[k] = stay.deviates(taxels[k], i);
-      std::nth_element(values.begin(), middle, values.end());
-      course.back()[i] = *middle;
+// Rows or columns with enough sound taxels.
+std::vector<Line> FaultSearch::linesOf(const std::vector<FaultKind>& kinds) const {
+  std::vector<Line> lines;
+  for (const FaultKind kind : kinds) {
+    const std::size_t first = lines.size();
+    std::map<std::size_t, std::vector<std::size_t>> all;
+    for (const std::size_t t : taxels_) all[lineOf(sheet_.layout, kind, t)].push_back(t);
+    for (const auto& [line, taxels] : all)
+      if (taxels.size() >= kFewestOfALine) lines.push_back({kind, taxels, {}});
+    if (lines.size() < first + kFewestLines) continue;
+    for (std::size_t l = first; l < lines.size(); ++l) {
+      if (l > first) lines[l].beside.push_back(l - 1);
+      if (l + 1 < lines.size()) lines[l].beside.push_back(l + 1);
+      double variance = 1 / double(lines[l].taxels.size());
+      for (const std::size_t b : lines[l].beside)
+        variance += 1 / (double(lines[b].taxels.size()) * std::pow(lines[l].beside.size(), 2));
+      lines[l].noise = std::sqrt(variance * M_PI / 2);  // a median has pi / 2 times the variance of a mean
     }
   }
-  return course;
+  return lines;
 }
 
-// `own`, `others`: logarithms of the largest means, [spans], [others][spans].
-Outlier FaultSearch::judge(const std::vector<double>& own, const std::vector<std::vector<double>>& others,
-                           const std::vector<std::size_t>& spans, double tests) const {
+// Calls use(stay, scan, values) for each scan. Values: the deviations of all taxels; the median of those of
+// each line, in which what less than half of its taxels do does not count; and the contrast of each line,
+// which is its median less those of the lines beside it.
+template <typename Use>
+void FaultSearch::eachScan(const std::vector<Line>& lines, Use use) const {
+  const auto taxels = static_cast<Eigen::Index>(sheet_.used.size());
+  Eigen::ArrayXd values(taxels + 2 * Eigen::Index(lines.size()));
+  std::vector<double> of_line;
+  for (std::size_t v = 0; v < courses_.size(); ++v) {
+    dataset::ScanCounts counts(*sheet_.stays[v].recording);
+    for (std::size_t i = 0; i < courses_[v].scans(); ++i) {
+      courses_[v].deviations(i, counts[sheet_.stays[v].first + i], values.head(taxels));
+      double* const median = values.data() + taxels;
+      for (std::size_t l = 0; l < lines.size(); ++l) {
+        of_line.clear();
+        for (const std::size_t t : lines[l].taxels) of_line.push_back(values[t]);
+        const auto middle = of_line.begin() + of_line.size() / 2;
+        std::nth_element(of_line.begin(), middle, of_line.end());
+        median[l] = *middle;
+      }
+      for (std::size_t l = 0; l < lines.size(); ++l) {
+        double beside = 0;
+        for (const std::size_t b : lines[l].beside) beside += median[b] / double(lines[l].beside.size());
+        median[lines.size() + l] = median[l] - beside;
+      }
+      use(v, i, values);
+    }
+  }
+}
+
+CourseSums FaultSearch::sumsOf(const std::vector<Line>& lines) const {
+  CourseSums sums(Eigen::Index(sheet_.used.size() + 2 * lines.size()));
+  eachScan(lines, [&](std::size_t v, std::size_t i, const Eigen::ArrayXd& values) {
+    const double reading = double(courses_[v].place[i]) / double(courses_[v].curve.cols() - 1);
+    sums.add(i, reading, sheet_.stays[v].rising[i], values);
+  });
+  sums.finishStay();
+  return sums;
+}
+
+// `own`: logarithms of the largest means, [spans]. `others`: rows of `all`.
+Outlier FaultSearch::judge(const Eigen::ArrayXd& own, const Largest& all,
+                           const std::vector<std::size_t>& others, double tests) const {
   Outlier outlier;
   if (others.size() < kFewestForQuartiles) return outlier;
-  for (std::size_t s = 0; s < spans.size(); ++s) {
+  for (Eigen::Index s = 0; s < own.size(); ++s) {
     std::vector<double> values;
-    for (const std::vector<double>& other : others) values.push_back(other[s]);
+    for (const std::size_t other : others) values.push_back(all(other, s));
     const Gumbel usual(values);
     outlier.p = std::min(outlier.p, tests * usual.p(own[s]));
     const double limit = usual.exceededBy(options_.level / tests);
-    if (outlier.span != 0 || own[s] < limit) continue;
-    outlier.span = spans[s];
+    if (outlier.span || own[s] < limit) continue;
+    outlier.span = s;
     outlier.limit = std::exp(limit);
   }
   return outlier;
 }
 
-// Scans in windows of `span` scans whose mean is beyond `limit`.
-Spells FaultSearch::spellsOf(const Course& course, std::size_t span, double limit) const {
+// Spells in which a course is about `limit` or more away from 0 for `span` scans, or farther for fewer: they
+// begin and end where the sum of what lies beyond half the limit is smallest and largest. Source: E. Page,
+// Continuous inspection schemes, Biometrika 41 (1954) 100.
+Spells spellsOf(const Course& course, std::size_t span, double limit) {
+  const double enough = double(span) * limit / 2;
   Spells spells;
-  for (const Eigen::VectorXd& stay : course) spells.emplace_back(stay.size(), false);
-  eachMean(course, span, false, [&](std::size_t v, Eigen::Index at, double mean) {
-    for (Eigen::Index i = at; std::abs(mean) >= limit && i < at + Eigen::Index(span); ++i)
-      if (std::abs(course[v][i]) > limit / 2) spells[v][static_cast<std::size_t>(i)] = true;
-  });
+  for (const std::vector<float>& stay : course) {
+    spells.emplace_back(stay.size(), false);
+    for (const double sign : {-1, 1}) {
+      double sum = 0, most = 0;
+      for (std::size_t i = 0, from = 0, to = 0; i < stay.size(); ++i) {
+        sum += sign * double(stay[i]) - limit / 2;
+        if (sum > most) {
+          most = sum;
+          to = i + 1;
+        }
+        if (sum > 0 && most - sum < enough && i + 1 < stay.size()) continue;
+        if (most >= enough) {
+          std::fill(spells.back().begin() + from, spells.back().begin() + to, true);
+          i = to - 1;
+        }
+        sum = most = 0;
+        from = i + 1;
+      }
+    }
+  }
   return spells;
+}
+
+Course FaultSearch::courseOf(std::size_t taxel) const {
+  Course course;
+  for (const StayCourses& stay : courses_) {
+    course.emplace_back(stay.scans());
+    TaxelCourse of_taxel(stay, taxel);
+    for (std::size_t i = 0; i < stay.scans(); ++i)
+      course.back()[i] = static_cast<float>(of_taxel.deviates(i));
+  }
+  return course;
 }
 
 // Joins spells of one fault: between them it would not have shown, or it shows in most scans.
 void FaultSearch::join(std::size_t taxel, Spells& spells) const {
   for (std::size_t v = 0; v < spells.size(); ++v) {
     std::vector<bool> joined = spells[v];
+    TaxelCourse course(courses_[v], taxel);
     std::size_t last = joined.size(), run = 0;  // end and length of the spell before
     eachSpell(spells[v], [&](std::size_t from, std::size_t to) {
       bool hidden = from > last;
       for (std::size_t i = last; i < from && hidden; ++i)
-        hidden = courses_[v].expected(taxel, i) < kShows || std::abs(courses_[v].deviates(taxel, i)) > kShows;
+        hidden = courses_[v].expected(taxel, i) < kShows || std::abs(course.deviates(i)) > kShows;
       if (from > last && (hidden || from - last <= std::min(run, to - from) / 2))
         std::fill(joined.begin() + last, joined.begin() + from, true);
       last = to;
@@ -229,11 +358,12 @@ std::optional<FaultKind> FaultSearch::kindOf(std::size_t taxel, const Spells& sp
   double unloaded = INFINITY;  // lowest reading of the sheet [share of full scale]
   for (std::size_t v = 0; v < courses_.size(); ++v) {
     for (const std::size_t t : taxels_) unloaded = std::min(unloaded, courses_[v].lowest[t]);
+    TaxelCourse course(courses_[v], taxel);
     for (std::size_t i = 0; i < courses_[v].scans(); ++i) {
       if (spells[v][i]) continue;
-      sound.push_back(std::abs(courses_[v].deviates(taxel, i)));
+      sound.push_back(std::abs(course.deviates(i)));
       if (i == 0 || spells[v][i - 1]) continue;
-      kept += std::abs(courses_[v].reading(taxel, i) - courses_[v].reading(taxel, i - 1)) < code;
+      kept += std::abs(course.reading(i) - course.reading(i - 1)) < code;
       steps += 1;
     }
   }
@@ -242,13 +372,14 @@ std::optional<FaultKind> FaultSearch::kindOf(std::size_t taxel, const Spells& sp
   double all = 0, dead = 0, stuck = 0;
   for (std::size_t v = 0; v < courses_.size(); ++v) {
     const StayCourses& stay = courses_[v];
+    TaxelCourse course(stay, taxel);
     eachSpell(spells[v], [&](std::size_t from, std::size_t to) {
       std::vector<double> reading, expected;
       double square = 0;
       for (std::size_t i = from; i < to; ++i) {
-        square += std::pow(stay.deviates(taxel, i), 2);
+        square += std::pow(course.deviates(i), 2);
         if (i - from < (to - from) / 2) continue;
-        reading.push_back(stay.reading(taxel, i));
+        reading.push_back(course.reading(i));
         expected.push_back(stay.expected(taxel, i));
       }
       std::sort(reading.begin(), reading.end());
@@ -276,80 +407,51 @@ std::vector<FailingTaxel> FaultSearch::failingTaxels() const {
   for (const StayCourses& stay : courses_) longest = std::max(longest, stay.scans());
   std::vector<std::size_t> spans;
   for (std::size_t span = 2; span <= longest; span *= 2) spans.push_back(span);
-  std::vector<std::vector<double>> all;
-  for (const std::size_t taxel : taxels_) all.push_back(largest(medianOf({taxel}), spans, false));
+  Largest all(sheet_.used.size(), spans.size());
+  for (const std::size_t taxel : taxels_) all.row(taxel) = largestMeans(courseOf(taxel), spans);
   std::vector<FailingTaxel> failing;
-  for (std::size_t k = 0; k < taxels_.size(); ++k) {
-    const Outlier outlier = judge(all[k], all, spans, double(taxels_.size() * spans.size()));
-    if (outlier.span == 0) continue;
-    Spells spells = spellsOf(medianOf({taxels_[k]}), outlier.span, outlier.limit);
-    join(taxels_[k], spells);
-    failing.push_back({taxels_[k], kindOf(taxels_[k], spells), outlier.p, spells});
+  for (const std::size_t taxel : taxels_) {
+    const Outlier outlier = judge(all.row(taxel), all, taxels_, double(taxels_.size() * spans.size()));
+    if (!outlier.span) continue;
+    Spells spells = spellsOf(courseOf(taxel), spans[*outlier.span], outlier.limit);
+    join(taxel, spells);
+    failing.push_back({taxel, kindOf(taxel, spells), outlier.p, spells});
   }
   return failing;
 }
 
-// Sound taxels of each row or column that has enough of them.
-std::vector<std::vector<std::size_t>> FaultSearch::linesOf(FaultKind kind) const {
-  std::map<std::size_t, std::vector<std::size_t>> all;
-  for (const std::size_t t : taxels_) all[lineOf(sheet_.layout, kind, t)].push_back(t);
-  std::vector<std::vector<std::size_t>> lines;
-  for (const auto& [line, taxels] : all)
-    if (taxels.size() >= kFewestOfALine) lines.push_back(taxels);
-  return lines;
-}
-
-// The median of a line less those of the lines beside it. `noise`: of it, per noise of a taxel.
-Course FaultSearch::contrastOf(const std::vector<std::vector<std::size_t>>& lines,
-                               const std::vector<Course>& medians, std::size_t line, double& noise) const {
-  Course contrast = medians[line];
-  const double parts = line == 0 || line + 1 == lines.size() ? 1 : 2;  // lines beside it
-  double variance = 1 / double(lines[line].size());
-  for (const std::size_t beside : {line - 1, line + 1}) {
-    if (beside >= lines.size()) continue;
-    variance += 1 / (double(lines[beside].size()) * parts * parts);
-    for (std::size_t v = 0; v < contrast.size(); ++v) contrast[v] -= medians[beside][v] / parts;
-  }
-  noise = std::sqrt(variance * M_PI / 2);  // the variance of a median is that of a mean times pi / 2
-  return contrast;
-}
-
 // Keeps the line that stands out most among the taxels of the other lines.
 bool FaultSearch::findLine(const std::vector<FaultKind>& kinds) {
-  std::vector<std::vector<double>> of_taxels;
-  for (const std::size_t taxel : taxels_)
-    of_taxels.push_back(largest(medianOf({taxel}), kSpansOfSteps, true));
+  const std::vector<Line> lines = linesOf(kinds);
+  const CourseSums sums = sumsOf(lines);
+  const Largest largest = sums.largestSteps();
   const matrix::MatrixSize size = sheet_.layout.size;
   const double tests = double(size.rows + size.columns) * double(kSpansOfSteps.size());
-  Members best;
-  FaultKind best_kind = FaultKind::kRow;
-  double p = 1;
-  for (const FaultKind kind : kinds) {
-    const std::vector<std::vector<std::size_t>> lines = linesOf(kind);
-    std::vector<Course> medians;
-    for (const std::vector<std::size_t>& line : lines) medians.push_back(medianOf(line));
-    for (std::size_t l = 0; l < lines.size() && lines.size() >= kFewestLines; ++l) {
-      std::vector<std::vector<double>> others;
-      for (std::size_t k = 0; k < taxels_.size(); ++k)
-        if (!std::count(lines[l].begin(), lines[l].end(), taxels_[k])) others.push_back(of_taxels[k]);
-      double noise = 1;
-      const Course contrast = contrastOf(lines, medians, l, noise);
-      std::vector<double> steps = largest(contrast, kSpansOfSteps, true);
-      for (double& step : steps) step -= std::log(noise);
-      const Outlier outlier = judge(steps, others, kSpansOfSteps, tests);
-      if (outlier.span == 0 || outlier.p >= p || isLoop(contrast, lines[l].front())) continue;
-      // It steps itself, and not only the lines beside it.
-      if (largest(medians[l], {outlier.span}, true)[0] <
-          std::log(kOwnStep) + largest(contrast, {outlier.span}, true)[0])
-        continue;
-      p = outlier.p;
-      best_kind = kind;
-      best.clear();
-      const Spells spells = spellsOf(contrast, outlier.span, outlier.limit * noise / 2);
-      for (const std::size_t taxel : lines[l]) best[taxel] = spells;
-    }
+  Outlier best;
+  std::size_t line = 0;
+  for (std::size_t l = 0; l < lines.size(); ++l) {
+    std::vector<std::size_t> others;
+    std::set_difference(taxels_.begin(), taxels_.end(), lines[l].taxels.begin(), lines[l].taxels.end(),
+                        std::back_inserter(others));
+    const std::size_t own = sheet_.used.size() + l, contrast = own + lines.size();
+    const Outlier outlier = judge(largest.row(contrast) - std::log(lines[l].noise), largest, others, tests);
+    if (!outlier.span || outlier.p >= best.p || sums.isLoop(Eigen::Index(contrast))) continue;
+    // It steps itself, and not only the lines beside it.
+    if (largest(own, *outlier.span) < std::log(kOwnStep) + largest(contrast, *outlier.span)) continue;
+    best = outlier;
+    line = l;
   }
-  return !best.empty() && keep(best_kind, p, best);
+  if (!best.span) return false;
+  Course contrast(courses_.size());
+  eachScan(lines, [&](std::size_t v, std::size_t, const Eigen::ArrayXd& values) {
+    contrast[v].push_back(static_cast<float>(values[sheet_.used.size() + lines.size() + line]));
+  });
+  // A step has the noise of two means.
+  const double limit = best.limit * lines[line].noise / std::sqrt(2);
+  const Spells spells = spellsOf(contrast, kSpansOfSteps[*best.span], limit);
+  Members members;
+  for (const std::size_t taxel : lines[line].taxels) members[taxel] = spells;
+  return keep(lines[line].kind, best.p, members);
 }
 
 // Share of the scans in which one of two taxels fails that both fail in.
@@ -366,36 +468,18 @@ double together(const Spells& a, const Spells& b) {
 
 // Taxels that fail together and make up a line have one cause.
 void FaultSearch::joinLines(FaultKind kind, const std::vector<FailingTaxel>& failing) {
-  for (const std::vector<std::size_t>& line : linesOf(kind)) {
+  for (const Line& line : linesOf({kind})) {
     Members members;
     double p = 1;
     for (const FailingTaxel& one : failing) {
-      if (!std::count(line.begin(), line.end(), one.taxel)) continue;
+      if (!std::count(line.taxels.begin(), line.taxels.end(), one.taxel)) continue;
       if (!members.empty() && together(members.begin()->second, one.spells) < kTogether) continue;
       members[one.taxel] = one.spells;
       p = std::min(p, one.p);
     }
-    if (members.size() == line.size() && !isLoop(medianOf(line), line.front())) keep(kind, p, members);
+    if (members.size() < line.taxels.size()) continue;
+    if (!sumsOf({{kind, line.taxels, {}}}).isLoop(Eigen::Index(sheet_.used.size()))) keep(kind, p, members);
   }
-}
-
-// Whether the course of a line does the same in every cycle: it differs by direction at the same reading,
-// which is that of one of its taxels.
-bool FaultSearch::isLoop(const Course& course, std::size_t taxel) const {
-  double squares = 0, between = 0;
-  for (std::size_t v = 0; v < courses_.size(); ++v) {
-    std::map<long, std::array<statistics::RunningMoments, 2>> bins;  // falling, rising
-    for (std::size_t i = 0; i < courses_[v].scans(); ++i) {
-      const long reading = std::lround(courses_[v].expected(taxel, i) / kReadingBin);
-      bins[reading][sheet_.stays[v].rising[i]].add(course[v][i]);
-    }
-    for (const auto& [at, bin] : bins) {
-      const double a = bin[0].count, b = bin[1].count, loop = std::pow(bin[0].mean - bin[1].mean, 2);
-      if (a > 0 && b > 0) between += a * b / (a + b) * loop;
-    }
-    squares += course[v].squaredNorm();
-  }
-  return between > kLoop * squares;
 }
 
 // Computes times, share, depth and size of a fault from the spells of its taxels, and keeps it where its size
@@ -406,17 +490,23 @@ bool FaultSearch::keep(FaultKind kind, double p, const Members& members) {
   fault.p = p;
   if (fault.isLine()) fault.line = lineOf(sheet_.layout, kind, members.begin()->first);
   double hit = 0, all = 0, lost = 0, lost_of = 0, square = 0;
-  std::vector<std::vector<double>> squares = faults_.squares;
+  std::vector<std::vector<float>> squares = faults_.squares;
+  squares.resize(courses_.size());
   for (std::size_t v = 0; v < courses_.size(); ++v) {
+    squares[v].resize(courses_[v].scans());
+    std::vector<TaxelCourse> courses;
+    for (const auto& [taxel, spells] : members) courses.emplace_back(courses_[v], taxel);
     bool before = false;
     for (std::size_t i = 0; i < courses_[v].scans(); ++i) {
       bool now = false;
+      auto course = courses.begin();
       for (const auto& [taxel, spells] : members) {
+        TaxelCourse& own = *course++;
         if (!spells[v][i]) continue;
         now = true;
-        const double deviation = courses_[v].deviates(taxel, i);
+        const double deviation = own.deviates(i);
         square += deviation * deviation;
-        squares[v][i] += std::pow(deviation * courses_[v].unit[taxel], 2);
+        squares[v][i] += static_cast<float>(std::pow(deviation * courses_[v].unit[taxel], 2));
         lost -= deviation;
         lost_of += courses_[v].expected(taxel, i);
       }

@@ -50,8 +50,8 @@ struct Fault {
 struct Faults {
   std::vector<Fault> faults;  ///< at most one of each kind
   /// Squared errors of the failing readings, relative to the expected ones, summed over the taxels, [stays]
-  /// [scans] [share of full scale, squared].
-  std::vector<std::vector<double>> squares;
+  /// [scans] [share of full scale, squared]. Empty without faults.
+  std::vector<std::vector<float>> squares;
 };
 
 struct FaultOptions {

@@ -21,21 +21,26 @@ constexpr double kLeastRange = 0.5;   // of the median range: least unit
 
 // Scans of a stay by ascending median reading, in groups of about equal size. A part of the groups divides
 // the scans evenly, the other part the readings: a sheet may rest for long.
-std::vector<std::vector<std::size_t>> groupsOf(const std::vector<double>& median) {
-  std::vector<std::size_t> order(median.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return median[a] < median[b]; });
-  const std::size_t number = std::clamp<std::size_t>(median.size() / kScansAtPoint, 2, kPoints);
-  const double wide = (median[order.back()] - median[order.front()]) / double(number);
-  std::vector<std::vector<std::size_t>> groups(1);
-  double from = median[order.front()];
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    groups.back().push_back(order[k]);
-    const bool full = median[order[k]] - from >= wide || groups.back().size() >= 4 * median.size() / number;
-    if (groups.back().size() < kScansAtPoint || !full || order.size() - k <= kScansAtPoint) continue;
-    groups.emplace_back();
-    from = median[order[k]];
+struct Groups {
+  std::vector<std::uint32_t> scans;
+  std::vector<std::size_t> ends;  // of each group in `scans`
+};
+
+Groups groupsOf(const std::vector<float>& median) {
+  const std::size_t scans = median.size();
+  Groups groups;
+  groups.scans.resize(scans);
+  std::vector<std::uint32_t>& order = groups.scans;
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return median[a] < median[b]; });
+  const std::size_t number = std::clamp<std::size_t>(scans / kScansAtPoint, 2, kPoints);
+  const float wide = (median[order.back()] - median[order.front()]) / float(number);
+  for (std::size_t from = 0, k = 0; k < scans; ++k) {
+    const std::size_t size = k + 1 - from;
+    const bool full = median[order[k]] - median[order[from]] >= wide || size >= 4 * scans / number;
+    if (k + 1 < scans && (size < kScansAtPoint || !full || scans - k <= kScansAtPoint)) continue;
+    groups.ends.push_back(k + 1);
+    from = k + 1;
   }
   return groups;
 }
@@ -74,83 +79,103 @@ double mostUsual(std::vector<double>& values) {
   return sum / number;
 }
 
+// Readings of the taxels of a stay at some median readings.
+struct Curves {
+  Eigen::ArrayXd at;        // [points] [share of full scale]
+  Eigen::ArrayXXd value;    // [taxels x points] [share of full scale]
+  Eigen::ArrayXd response;  // [taxels] [share of full scale]
+  double median_response = 0;
+  // Place of a median reading among the points.
+  double place(double median) const {
+    const auto after = std::upper_bound(at.begin(), at.end(), median) - at.begin();
+    const auto k = std::clamp<Eigen::Index>(after, 1, at.size() - 1);
+    const double width = at[k] - at[k - 1];
+    return double(k) - (width > 0 ? (at[k] - median) / width : 0);
+  }
+};
+
 // Range of a straight line through a curve, times the share of the curve's variance.
-double responseOf(const ReadingCurve& curve) {
-  const auto n = curve.at.size();
-  const Eigen::Map<const Eigen::ArrayXd> at(curve.at.data(), n), value(curve.value.data(), n);
+double responseOf(const Eigen::ArrayXd& at, const Eigen::ArrayXd& value) {
   const Eigen::ArrayXd x = at - at.mean(), y = value - value.mean();
   const double xx = x.square().sum(), xy = (x * y).sum(), yy = y.square().sum();
-  return xx > 0 && yy > 0 ? std::max(0.0, xy / xx) * (at[n - 1] - at[0]) * xy * xy / (xx * yy) : 0;
+  return xx > 0 && yy > 0 ? std::max(0.0, xy / xx) * (at[at.size() - 1] - at[0]) * xy * xy / (xx * yy) : 0;
 }
 
 class CourseBuilder {
  public:
-  explicit CourseBuilder(const Sheet& sheet) : sheet_(sheet), usual_(sheet.used.size(), 0) {}
+  explicit CourseBuilder(const Sheet& sheet) : sheet_(sheet) {}
   std::vector<StayCourses> run();
 
  private:
   void read(const Stay& stay);
   void fit(StayCourses& courses);
   bool responds(std::size_t stay, std::size_t taxel) const {
-    return response_[stay][taxel] >= kResponds * usual_[taxel] * median_response_[stay];
+    return curves_[stay].response[taxel] >= kResponds * usual_[taxel] * curves_[stay].median_response;
   }
   std::size_t standIn(std::size_t stay, std::size_t taxel) const;
-  bool soundSomewhere(const StayCourses& courses, std::size_t taxel, const ReadingCurve& curve) const;
   void expect(std::size_t stay, std::size_t taxel);
 
   const Sheet& sheet_;
   std::vector<StayCourses> courses_;
-  std::vector<std::vector<ReadingCurve>> curves_;  // [stays][taxels]
-  std::vector<std::vector<double>> response_;      // [stays][taxels] [share of full scale]
-  std::vector<double> median_response_;            // [stays]
-  std::vector<double> usual_;  // response of each taxel / median response, largest over the stays
+  std::vector<Curves> curves_;  // [stays]
+  Eigen::ArrayXd usual_;        // response of each taxel / median response, largest over the stays
 };
 
-// `deviation` holds the readings until expect().
+// `place` holds the median readings until fit().
 void CourseBuilder::read(const Stay& stay) {
   StayCourses courses;
-  const std::size_t taxels = sheet_.used.size();
-  courses.deviation.resize(stay.scans(), taxels);
+  courses.stay = &stay;
+  courses.full_scale = sheet_.full_scale;
+  courses.place.reserve(stay.scans());
   dataset::ScanCounts scans(*stay.recording);
   std::vector<double> values;
-  for (std::size_t i = 0; i < stay.scans(); ++i) {
-    const std::uint16_t* counts = scans[stay.first + i];
+  for (std::size_t i = stay.first; i < stay.last; ++i) {
+    const std::uint16_t* counts = scans[i];
     values.clear();
-    for (std::size_t t = 0; t < taxels; ++t) {
-      const double reading = counts[t] / sheet_.full_scale;
-      courses.deviation(i, t) = static_cast<float>(reading);
-      if (sheet_.used[t]) values.push_back(reading);
-    }
-    courses.median.push_back(middleMean(values));
+    for (std::size_t t = 0; t < sheet_.used.size(); ++t)
+      if (sheet_.used[t]) values.push_back(counts[t] / sheet_.full_scale);
+    courses.place.push_back(static_cast<float>(middleMean(values)));
   }
-  courses.curve.resize(taxels);
-  courses.unit.assign(taxels, 1);
-  courses.lowest.assign(taxels, 0);
   courses_.push_back(std::move(courses));
 }
 
 void CourseBuilder::fit(StayCourses& courses) {
-  const std::vector<std::vector<std::size_t>> groups = groupsOf(courses.median);
-  std::vector<double> at, values, responses;
-  for (const std::vector<std::size_t>& group : groups) {
-    double sum = 0;
-    for (const std::size_t i : group) sum += courses.median[i];
-    at.push_back(sum / double(group.size()));
-  }
-  curves_.emplace_back(sheet_.used.size());
-  response_.emplace_back(sheet_.used.size(), 0);
-  for (std::size_t t = 0; t < sheet_.used.size(); ++t) {
-    if (!sheet_.used[t]) continue;
-    ReadingCurve& curve = curves_.back()[t];
-    curve.at = at;
-    for (const std::vector<std::size_t>& group : groups) {
-      values.clear();
-      for (const std::size_t i : group) values.push_back(courses.deviates(t, i));
-      curve.value.push_back(mostUsual(values));
+  const auto taxels = static_cast<Eigen::Index>(sheet_.used.size());
+  const Groups groups = groupsOf(courses.place);
+  const auto points = static_cast<Eigen::Index>(groups.ends.size());
+  Curves curves{Eigen::ArrayXd::Zero(points), Eigen::ArrayXXd::Zero(taxels, points),
+                Eigen::ArrayXd::Zero(taxels)};
+  // Calls use(k, values) for the values of the scans in each group.
+  std::vector<double> values, responses;
+  const auto eachGroup = [&](auto valueOf, auto use) {
+    for (std::size_t k = 0, i = 0; k < groups.ends.size(); ++k) {
+      for (values.clear(); i < groups.ends[k]; ++i) values.push_back(double(valueOf(groups.scans[i])));
+      use(static_cast<Eigen::Index>(k));
     }
-    responses.push_back(response_.back()[t] = responseOf(curve));
+  };
+  eachGroup([&](std::size_t i) { return courses.place[i]; },
+            [&](Eigen::Index k) {
+              curves.at[k] = std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
+            });
+  std::vector<float> readings(courses.scans());  // the groups jump in time; in a file that would be slow
+  for (Eigen::Index t = 0; t < taxels; ++t) {
+    if (!sheet_.used[t]) continue;
+    TaxelCourse course(courses, t);
+    for (std::size_t i = 0; i < readings.size(); ++i) readings[i] = static_cast<float>(course.reading(i));
+    eachGroup([&](std::size_t i) { return readings[i]; },
+              [&](Eigen::Index k) { curves.value(t, k) = mostUsual(values); });
+    responses.push_back(curves.response[t] = responseOf(curves.at, curves.value.row(t)));
   }
-  median_response_.push_back(statistics::upperMedian(responses, 0));
+  if (points == 1) {  // a constant
+    curves.at = curves.at.replicate(2, 1).eval();
+    curves.value = curves.value.replicate(1, 2).eval();
+  }
+  curves.median_response = statistics::upperMedian(responses, 0);
+  for (float& place : courses.place) place = static_cast<float>(curves.place(double(place)));
+  courses.curve = curves.value;
+  courses.unit.setOnes(taxels);
+  courses.lowest.setZero(taxels);
+  curves_.push_back(std::move(curves));
 }
 
 // Stay whose curve is taken for the taxel, best on the same surface; the number of stays = it responds
@@ -165,53 +190,56 @@ std::size_t CourseBuilder::standIn(std::size_t stay, std::size_t taxel) const {
   return courses_.size();
 }
 
-// Whether a taxel reads about what a curve says in some of the loaded scans.
-bool CourseBuilder::soundSomewhere(const StayCourses& courses, std::size_t taxel,
-                                   const ReadingCurve& curve) const {
-  std::vector<double> expected;
-  for (const double median : courses.median) expected.push_back(curve(median));
-  const auto [low, high] = std::minmax_element(expected.begin(), expected.end());
+// Whether a taxel reads about what its curve says in some of the loaded scans.
+bool soundSomewhere(const StayCourses& courses, std::size_t taxel) {
+  const double low = courses.curve.row(taxel).minCoeff(), high = courses.curve.row(taxel).maxCoeff();
   double loaded = 0, sound = 0;
-  for (std::size_t i = 0; i < expected.size(); ++i) {
-    if (expected[i] < (*low + *high) / 2) continue;
+  TaxelCourse course(courses, taxel);
+  for (std::size_t i = 0; i < courses.scans(); ++i) {
+    const double expected = courses.expectedReading(taxel, i);
+    if (expected < (low + high) / 2) continue;
     ++loaded;
-    sound += std::abs(courses.deviates(taxel, i) - expected[i]) < kResponds * (expected[i] - *low);
+    sound += std::abs(course.reading(i) - expected) < kResponds * (expected - low);
   }
   return sound > kSoundScans * loaded;
 }
 
 void CourseBuilder::expect(std::size_t stay, std::size_t taxel) {
   StayCourses& courses = courses_[stay];
-  std::size_t from = responds(stay, taxel) ? stay : standIn(stay, taxel);
-  // Whether it fails or another bend silences it cannot be told.
-  if (from < courses_.size() && sheet_.stays[from].surface != sheet_.stays[stay].surface &&
-      !soundSomewhere(courses, taxel, curves_[from][taxel]))
-    from = stay;
-  ReadingCurve& curve = courses.curve[taxel];
-  if (from < courses_.size()) curve = curves_[from][taxel];
-  const std::vector<double>& readings = curve.value.empty() ? courses.median : curve.value;
-  courses.lowest[taxel] = *std::min_element(readings.begin(), readings.end());
-  courses.unit[taxel] = std::max({curve.range(), kLeastRange * median_response_[stay], 1e-6});
-  for (std::size_t i = 0; i < courses.scans(); ++i) {
-    float& value = courses.deviation(i, taxel);
-    value = static_cast<float>((double(value) - curve(courses.median[i])) / courses.unit[taxel]);
+  const Curves& own = curves_[stay];
+  const std::size_t from = responds(stay, taxel) ? stay : standIn(stay, taxel);
+  auto curve = courses.curve.row(taxel);
+  if (from == courses_.size())
+    curve = own.at;
+  else if (from != stay) {
+    const Curves& other = curves_[from];
+    for (Eigen::Index k = 0; k < own.at.size(); ++k) {
+      const double place = other.place(own.at[k]);
+      const auto before = std::clamp<Eigen::Index>(Eigen::Index(place), 0, other.at.size() - 2);
+      curve[k] = other.value(taxel, before) +
+                 (place - double(before)) * (other.value(taxel, before + 1) - other.value(taxel, before));
+    }
+    // Whether it fails or another bend silences it cannot be told.
+    if (sheet_.stays[from].surface != sheet_.stays[stay].surface && !soundSomewhere(courses, taxel))
+      curve = own.value.row(taxel);
   }
+  courses.lowest[taxel] = curve.minCoeff();
+  const double range = from == courses_.size() ? 0 : curve.maxCoeff() - curve.minCoeff();
+  courses.unit[taxel] = std::max({range, kLeastRange * own.median_response, 1e-6});
 }
 
 std::vector<StayCourses> CourseBuilder::run() {
+  usual_.setZero(static_cast<Eigen::Index>(sheet_.used.size()));
   for (const Stay& stay : sheet_.stays) {
     read(stay);
     fit(courses_.back());
+    const Curves& curves = curves_.back();
+    if (curves.median_response > 0) usual_ = usual_.max(curves.response / curves.median_response);
   }
-  for (std::size_t t = 0; t < usual_.size(); ++t) {
-    for (std::size_t v = 0; v < courses_.size(); ++v) {
-      if (median_response_[v] > 0) usual_[t] = std::max(usual_[t], response_[v][t] / median_response_[v]);
-    }
-    // A taxel that responds nowhere: that of the others is usual.
-    if (usual_[t] < kResponds) usual_[t] = 1;
-  }
+  // A taxel that responds nowhere: that of the others is usual.
+  usual_ = (usual_ < kResponds).select(1, usual_);
   for (std::size_t v = 0; v < courses_.size(); ++v) {
-    for (std::size_t t = 0; t < usual_.size(); ++t) {
+    for (std::size_t t = 0; t < sheet_.used.size(); ++t) {
       if (sheet_.used[t]) expect(v, t);
     }
   }
@@ -219,21 +247,6 @@ std::vector<StayCourses> CourseBuilder::run() {
 }
 
 }  // namespace
-
-double ReadingCurve::operator()(double median) const {
-  if (at.empty()) return median;
-  if (at.size() == 1) return value.front();
-  const auto after = std::upper_bound(at.begin(), at.end(), median) - at.begin();
-  const auto k = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(after, 1, at.size() - 1));
-  const double width = at[k] - at[k - 1];
-  return width > 0 ? value[k - 1] + (median - at[k - 1]) / width * (value[k] - value[k - 1]) : value[k];
-}
-
-double ReadingCurve::range() const {
-  if (value.empty()) return 0;
-  const auto [low, high] = std::minmax_element(value.begin(), value.end());
-  return *high - *low;
-}
 
 std::vector<StayCourses> taxelCourses(const Sheet& sheet) {
   return CourseBuilder(sheet).run();

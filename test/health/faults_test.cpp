@@ -14,7 +14,7 @@ using map::taxel_flag::kDead;
 using map::taxel_flag::kStuck;
 
 std::vector<Fault> faultsOf(const dataset::Recording& recording) {
-  Sheet sheet{recording.layout, double(recording.full_scale), {}, std::vector<bool>(20, true)};
+  Sheet sheet{recording.layout, double(recording.full_scale), {}, std::vector<bool>(recording.layout.size.taxels(), true)};
   sheet.stays.push_back({&recording, 0, recording.scans(), 0, 0, {}});
   for (std::size_t i = 0; i < recording.scans(); ++i)
     sheet.stays[0].rising.push_back(i > 0 && recording.pressure[i] > recording.pressure[i - 1]);
@@ -58,6 +58,28 @@ TEST(FaultsOfASheet, AreLinesOnlyWhereTheirTaxelsFailTogether) {
   EXPECT_TRUE(row[0].kind == FaultKind::kRow);
   EXPECT_EQ(row[0].line, 1u);
   for (const Fault& fault : faultsOf(failing({7, 12}, half))) EXPECT_FALSE(fault.isLine());
+}
+
+// A loose contact loses two thirds of the readings of a noisy row in bursts.
+TEST(FaultsOfASheet, HaveSpellsAsLongAsThePlantedOnes) {
+  test_support::SyntheticRig rig;
+  rig.size = {6, 10};
+  rig.cycles = 20;
+  rig.noise = 300;
+  for (const std::size_t length : {10, 25, 60}) {
+    dataset::Recording loose = test_support::syntheticRecording(rig);
+    std::size_t spells = 0;
+    for (std::size_t start = 60; start + length < loose.scans(); start += 230, ++spells) {
+      for (std::size_t i = start; i < start + length; ++i)
+        for (std::size_t t = 20; t < 30; ++t) loose.counts[i * 60 + t] /= 3;
+    }
+    const std::vector<Fault> faults = faultsOf(loose);
+    ASSERT_EQ(faults.size(), 1u) << length;
+    EXPECT_TRUE(faults[0].kind == FaultKind::kRow);
+    EXPECT_EQ(faults[0].times.size(), spells) << length;
+    const double share = double(spells * length) / double(loose.scans());
+    EXPECT_NEAR(faults[0].share, share, 0.1 * share) << length;
+  }
 }
 
 TEST(ReadingRule, CallsATaxelDeadOrStuckOnlyByWhatTheOthersDo) {

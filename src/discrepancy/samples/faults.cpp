@@ -51,7 +51,8 @@ FaultyReadings readingsOf(const Measured& measured, const health::Faults& found)
   std::map<std::string, double> by_surface;
   for (std::size_t v = 0; v < measured.visits.size(); ++v) {
     eachScan(measured, measured.visits[v], [&](std::size_t scan, std::size_t sample) {
-      const double square = found.squares[v][scan], taxels = static_cast<double>(measured.taxels());
+      const double square = found.squares.empty() ? 0 : double(found.squares[v][scan]);
+      const auto taxels = static_cast<double>(measured.taxels());
       auto& bin =
           bins[static_cast<long>(std::max(0.0, measured.pressure[sample]) / thresholds::kPressureBin)];
       bin.first += square;
