@@ -25,6 +25,7 @@ constexpr double kGumbelMedian = 0.36651, kGumbelQuartiles = 1.57253;
 // Least scale of the logarithm of the taxels' largest deviations: they differ by some per cent by chance
 // alone, and by steps of the converter.
 constexpr double kLeastScale = 0.1;
+constexpr double kLeastMean = 1e-6;  // has a logarithm
 // Share of a taxel's range above which the others certainly load it, or move it.
 constexpr double kShows = 0.3;
 // Limits of the rule: deviations of the noise, and the least share of a taxel's range.
@@ -59,20 +60,26 @@ using Course = std::vector<std::vector<float>>;
 // Logarithms of the largest means of some courses, [courses x spans].
 using Largest = Eigen::ArrayXXd;
 
-constexpr double kLeastMean = 1e-6;
+// From the largest sums over each number of scans, [courses x spans].
+Largest logarithmsOf(Largest sums, const std::vector<std::size_t>& spans) {
+  for (std::size_t s = 0; s < spans.size(); ++s) sums.col(s) /= double(spans[s]);
+  return sums.max(kLeastMean).log();
+}
 
-// Logarithms of the largest mean of a course over each number of scans.
-Eigen::ArrayXd largestMeans(const Course& course, const std::vector<std::size_t>& spans) {
-  Eigen::ArrayXd most = Eigen::ArrayXd::Constant(Eigen::Index(spans.size()), kLeastMean);
+// Of one course over each number of scans, [1 x spans].
+Largest largestMeans(const Course& course, const std::vector<std::size_t>& spans) {
+  Largest largest = Largest::Zero(1, Eigen::Index(spans.size()));
   for (const std::vector<float>& stay : course) {
     std::vector<double> sum(stay.size() + 1, 0);
     for (std::size_t i = 0; i < stay.size(); ++i) sum[i + 1] = sum[i] + double(stay[i]);
     for (std::size_t s = 0; s < spans.size(); ++s) {
+      double most = largest(0, s);
       for (std::size_t at = 0; at + spans[s] < sum.size(); ++at)
-        most[s] = std::max(most[s], std::abs(sum[at + spans[s]] - sum[at]) / double(spans[s]));
+        most = std::max(most, std::abs(sum[at + spans[s]] - sum[at]));
+      largest(0, s) = most;
     }
   }
-  return most.log();
+  return logarithmsOf(largest, spans);
 }
 
 // What some courses do, without their scans.
@@ -80,7 +87,7 @@ class CourseSums {
  public:
   explicit CourseSums(Eigen::Index courses)
       : last_(courses, Eigen::Index(2 * kSpansOfSteps.back() + 1)),
-        most_(Eigen::ArrayXXd::Constant(courses, Eigen::Index(kSpansOfSteps.size()), kLeastMean)),
+        most_(Eigen::ArrayXXd::Zero(courses, Eigen::Index(kSpansOfSteps.size()))),
         squares_(Eigen::ArrayXd::Zero(courses)),
         between_(squares_) {}
 
@@ -94,7 +101,7 @@ class CourseSums {
     before(0) = before(1) + values;
     for (std::size_t s = 0; s < kSpansOfSteps.size() && 2 * kSpansOfSteps[s] <= scan + 1; ++s) {
       const std::size_t span = kSpansOfSteps[s];
-      most_.col(s) = most_.col(s).max((before(0) - 2 * before(span) + before(2 * span)).abs() / double(span));
+      most_.col(s) = most_.col(s).max((before(0) - 2 * before(span) + before(2 * span)).abs());
     }
     Bin& bin = bins_[std::lround(reading / kReadingBin)][rising];
     if (bin.number == 0) bin.sum.setZero(values.size());
@@ -110,7 +117,7 @@ class CourseSums {
     bins_.clear();
   }
   // Of the mean over each of kSpansOfSteps scans less that over those before.
-  Largest largestSteps() const { return most_.log(); }
+  Largest largestSteps() const { return logarithmsOf(most_, kSpansOfSteps); }
   // Whether the course does the same in every cycle: it differs by direction at the same reading.
   bool isLoop(Eigen::Index course) const { return between_[course] > kLoop * squares_[course]; }
 
@@ -121,7 +128,7 @@ class CourseSums {
   };
 
   Eigen::ArrayXXd last_;                     // sums of the values up to each of the last scans
-  Eigen::ArrayXXd most_;                     // largest steps, [courses x spans]
+  Eigen::ArrayXXd most_;                     // largest differences of two sums, [courses x spans]
   std::map<long, std::array<Bin, 2>> bins_;  // by reading; falling, rising
   Eigen::ArrayXd squares_, between_;
 };

@@ -47,8 +47,9 @@ Groups groupsOf(const std::vector<float>& median) {
 
 // Mean of the middle half of the values: as robust as the median here, and not bound to whole counts.
 double middleMean(std::vector<double>& values) {
-  std::sort(values.begin(), values.end());
   const std::size_t from = values.size() / 4, to = values.size() - from;
+  std::nth_element(values.begin(), values.begin() + from, values.end());
+  std::nth_element(values.begin() + from, values.begin() + (to - 1), values.end());
   return std::accumulate(values.begin() + from, values.begin() + to, 0.0) / double(to - from);
 }
 
