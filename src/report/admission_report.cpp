@@ -65,8 +65,8 @@ std::string faultText(const health::Fault& fault, const matrix::Layout& layout) 
   const bool line = fault.isLine();
   const std::string where =
       line ? " " + std::to_string(fault.line) : " (row, column): " + places(fault.taxels, layout);
-  return discrepancy::effectOf(fault).id + where + ", " + percent(fault.share, 2) + " of the scans, longest " +
-         settings::fixedText(fault.longest, 1) + " s";
+  return discrepancy::effectOf(fault).id + where + ", " + percent(fault.share, 2) +
+         " of the scans, longest " + settings::fixedText(fault.longest, 1) + " s";
 }
 
 // ", because A; and 2 more". The lines above list all reasons.
