@@ -118,35 +118,32 @@ double distance(const std::vector<double>& ranks, double said, const std::vector
 // What the scans of one surface say.
 class Surface {
  public:
-  Surface(const ScanCourse& course, const std::vector<std::size_t>& scans, const std::vector<bool>& sound)
+  Surface(const ScanCourse& course, const std::vector<std::uint32_t>& scans, const std::vector<bool>& sound)
       : course_(course) {
-    std::vector<double> loads, loaded;
-    for (const std::size_t i : scans) {
-      if (!sound[i]) continue;
-      pressures_.push_back(course.pressure[i]);
-      readings_.push_back(course.reading[i]);
-      if (course.pressure[i] > kRestLevel) loads.push_back(course.pressure[i]);
-    }
-    if (loads.size() < kLeastLoaded) return;
-    for (std::vector<double>* const values : {&pressures_, &readings_, &loads})
-      std::sort(values->begin(), values->end());
-    const double low = quantile(readings_, kRareScans);
-    const double range = quantile(loads, 1 - kRareScans), span = quantile(readings_, 1 - kRareScans) - low;
+    // Of the sound scans above a pressure. One of these at a time: each is as long as the recording.
+    const auto sorted = [&](double above, auto valueOf) {
+      std::vector<double> values;
+      for (const std::size_t i : scans)
+        if (sound[i] && course.pressure[i] > above) values.push_back(valueOf(i));
+      std::sort(values.begin(), values.end());
+      return values;
+    };
+    pressures_ = sorted(-INFINITY, [&](std::size_t i) { return course.pressure[i]; });
+    readings_ = sorted(-INFINITY, [&](std::size_t i) { return course.reading[i]; });
+    const auto loads = std::upper_bound(pressures_.begin(), pressures_.end(), kRestLevel);
+    const auto loaded = static_cast<std::size_t>(pressures_.end() - loads);
+    if (loaded < kLeastLoaded) return;
+    const double low = quantile(readings_, kRareScans), span = quantile(readings_, 1 - kRareScans) - low;
+    const double range = *(loads + static_cast<std::ptrdiff_t>((1 - kRareScans) * double(loaded - 1)));
     rests_ = std::abs(quantile(pressures_, kRestingScans)) <= kRestLevel;
     // Where the chamber never comes to 0, the scans at its lowest pressure are many and agree too well.
     const double least = quantile(pressures_, kRareScans);
     const double rest = std::max(kRestLevel, least + kLeastReading * (range - least));
-    std::vector<double> pressures, counts;
-    for (const std::size_t i : scans) {
-      if (!sound[i] || course.pressure[i] <= rest) continue;
-      pressures.push_back(std::abs(inPressure(i)));
-      counts.push_back(std::abs(inReading(i)));
-    }
-    std::sort(pressures.begin(), pressures.end());
-    std::sort(counts.begin(), counts.end());
-    usual_ = quantile(pressures, kUsualScans);
+    usual_ = quantile(sorted(rest, [&](std::size_t i) { return std::abs(inPressure(i)); }), kUsualScans);
+    const double usual_reading =
+        quantile(sorted(rest, [&](std::size_t i) { return std::abs(inReading(i)); }), kUsualScans);
     least_pressure_ = std::max(kLeastPressure * range, kBeyondUsual * usual_);
-    least_reading_ = std::max(kLeastReading * span, kBeyondUsual * quantile(counts, kUsualScans));
+    least_reading_ = std::max(kLeastReading * span, kBeyondUsual * usual_reading);
     follows_ = span > 0 && least_pressure_ < range;
   }
 
@@ -181,7 +178,7 @@ std::string whyOf(const Surface& surface, std::size_t scan) {
 }
 
 // Scans in a row that differ more than usual, and contradict each other for longer than `shortest` [s].
-void findOn(const Surface& surface, const ScanCourse& course, const std::vector<std::size_t>& scans,
+void findOn(const Surface& surface, const ScanCourse& course, const std::vector<std::uint32_t>& scans,
             double shortest, std::vector<UnsoundSpan>& spans) {
   for (std::size_t k = 0; k < scans.size(); ++k) {
     const std::size_t begin = k;
@@ -221,8 +218,9 @@ double shortestSpan(const ScanCourse& course, const std::vector<bool>& sound) {
 }  // namespace
 
 std::vector<UnsoundSpan> contradictions(const ScanCourse& course) {
-  std::map<std::uint32_t, std::vector<std::size_t>> surfaces;
-  for (std::size_t i = 0; i < course.scans(); ++i) surfaces[course.condition[i]].push_back(i);
+  std::map<std::uint32_t, std::vector<std::uint32_t>> surfaces;
+  for (std::size_t i = 0; i < course.scans(); ++i)
+    surfaces[course.condition[i]].push_back(static_cast<std::uint32_t>(i));
   std::vector<UnsoundSpan> spans;
   std::vector<bool> sound(course.scans(), true);
   double shortest = kTimesLag * kUsualLag;

@@ -103,11 +103,11 @@ bool Investigation::humOfAll() const {
 void Investigation::detectFaults() {
   const Faults faults = findFaults(measured_, problem_.options);
   const bool hum = std::any_of(faults.faults.begin(), faults.faults.end(),
-                               [](const Fault& fault) { return fault.isLine(); }) &&
+                               [](const health::Fault& fault) { return fault.isLine(); }) &&
                    humOfAll();
-  for (const Fault& fault : faults.faults) {
-    if (!sought(fault.id) || (hum && fault.isLine())) continue;
-    detections_.push_back(detectionOf(fault, faults.readings, 0));
+  for (const health::Fault& fault : faults.faults) {
+    if (!sought(effectOf(fault).id) || (hum && fault.isLine())) continue;
+    detections_.push_back(detectionOf(fault, faults.readings));
     for (const std::size_t t : fault.taxels) measured_.used[t] = 0;
   }
   // All faults share one contribution to the gap. It is counted once.

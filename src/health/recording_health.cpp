@@ -1,7 +1,7 @@
 #include "health/recording_health.h"
 
-#include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "dataset/count_readers.h"
 
@@ -11,77 +11,51 @@ namespace {
 
 constexpr double kOften = 0.01;  // of the scans
 
-bool masked(const dataset::Recording& recording, std::size_t taxel) {
-  return !recording.mask.empty() && recording.mask[taxel] != 0;
-}
-
-void addOnce(std::vector<std::size_t>& list, std::size_t value) {
-  if (std::find(list.begin(), list.end(), value) == list.end()) list.push_back(value);
-}
-
-// A line fault is a line whose taxels are all flagged.
-void noteLines(const dataset::Recording& recording, const std::vector<std::uint16_t>& flags,
-               RecordingHealth& health) {
-  const matrix::MatrixSize size = recording.layout.size;
-  const auto fails = [&](std::size_t row, std::size_t column) {
-    return (flags[row * size.columns + column] & map::taxel_flag::kLineFault) != 0;
-  };
-  for (std::size_t row = 0; row < size.rows; ++row) {
-    bool whole = true;
-    for (std::size_t column = 0; column < size.columns; ++column) whole = whole && fails(row, column);
-    if (whole) addOnce(health.rows, row);
-  }
-  for (std::size_t column = 0; column < size.columns; ++column) {
-    bool whole = true;
-    for (std::size_t row = 0; row < size.rows; ++row) whole = whole && fails(row, column);
-    if (whole) addOnce(health.columns, column);
-  }
-}
-
-void noteFaults(const dataset::Recording& recording, const std::vector<std::uint16_t>& flags,
-                RecordingHealth& health) {
-  for (std::size_t t = 0; t < flags.size(); ++t) {
-    if (masked(recording, t)) continue;
-    if ((flags[t] & map::taxel_flag::kDead) != 0) addOnce(health.dead, t);
-    if ((flags[t] & map::taxel_flag::kStuck) != 0) addOnce(health.stuck, t);
-  }
-  noteLines(recording, flags, health);
-}
-
-void countClipping(const dataset::Recording& recording, RecordingHealth& health) {
-  const std::size_t taxels = recording.layout.size.taxels();
-  std::size_t readings = 0, clipped = 0;
-  for (std::size_t t = 0; t < taxels; ++t) {
-    if (masked(recording, t)) continue;
-    std::size_t own = 0;
-    dataset::TaxelCounts counts(recording, t);
-    for (std::size_t i = 0; i < recording.scans(); ++i) {
-      if (counts[i] < recording.full_scale) continue;
-      ++own;
-      if (!recording.pressure.empty()) {
-        health.saturated_from = std::fmin(health.saturated_from, recording.pressure[i]);
-      }
-    }
-    readings += recording.scans();
-    clipped += own;
-    health.saturated_taxels += double(own) > kOften * double(recording.scans());
-  }
-  health.saturated = readings > 0 ? double(clipped) / double(readings) : 0;
-}
-
 }  // namespace
 
 RecordingHealth recordingHealth(const dataset::Recording& recording, const TaxelWatchOptions& options) {
+  const matrix::MatrixSize size = recording.layout.size;
+  const auto used = [&](std::size_t taxel) { return recording.mask.empty() || recording.mask[taxel] == 0; };
   RecordingHealth health;
-  countClipping(recording, health);
-  TaxelWatch watch(recording.layout.size, recording.full_scale, options);
-  dataset::ScanCounts counts(recording);
+  std::set<std::size_t> dead, stuck, rows, columns;
+  std::vector<std::size_t> clipped(size.taxels(), 0);
+  TaxelWatch watch(size, recording.full_scale, options);
+  const auto failing = [&](std::size_t first, std::size_t count, std::size_t step) {
+    std::size_t i = 0;
+    while (i < count && (watch.flags()[first + i * step] & map::taxel_flag::kLineFault) != 0) ++i;
+    return i == count;
+  };
+  dataset::ScanCounts scans(recording);
   for (std::size_t i = 0; i < recording.scans(); ++i) {
-    if (watch.observe(counts[i], recording.time[i])) noteFaults(recording, watch.flags(), health);
+    const std::uint16_t* const scan = scans[i];
+    for (std::size_t t = 0; t < size.taxels(); ++t) {
+      if (scan[t] < recording.full_scale || !used(t)) continue;
+      ++clipped[t];
+      if (!recording.pressure.empty())
+        health.saturated_from = std::fmin(health.saturated_from, recording.pressure[i]);
+    }
+    if (!watch.observe(scan, recording.time[i])) continue;
+    for (std::size_t t = 0; t < size.taxels(); ++t) {
+      if (used(t) && (watch.flags()[t] & map::taxel_flag::kDead) != 0) dead.insert(t);
+      if (used(t) && (watch.flags()[t] & map::taxel_flag::kStuck) != 0) stuck.insert(t);
+    }
+    for (std::size_t row = 0; row < size.rows; ++row)
+      if (failing(row * size.columns, size.columns, 1)) rows.insert(row);
+    for (std::size_t column = 0; column < size.columns; ++column)
+      if (failing(column, size.rows, size.columns)) columns.insert(column);
   }
-  for (auto* list : {&health.dead, &health.stuck, &health.rows, &health.columns}) {
-    std::sort(list->begin(), list->end());
+  double readings = 0, all = 0;
+  for (std::size_t t = 0; t < size.taxels(); ++t) {
+    if (!used(t)) continue;
+    readings += double(recording.scans());
+    all += double(clipped[t]);
+    health.saturated_taxels += double(clipped[t]) > kOften * double(recording.scans());
   }
+  if (readings > 0) health.saturated = all / readings;
+  health.dead.assign(dead.begin(), dead.end());
+  health.stuck.assign(stuck.begin(), stuck.end());
+  health.rows.assign(rows.begin(), rows.end());
+  health.columns.assign(columns.begin(), columns.end());
   return health;
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "health/reading_rule.h"
+
 namespace fsr::health {
 
 namespace {
@@ -84,24 +86,18 @@ bool TaxelWatch::judgeRow(std::uint16_t row) noexcept {
 
 bool TaxelWatch::judge(std::uint16_t row, std::uint16_t column) noexcept {
   const std::size_t taxel = std::size_t{row} * size_.columns + column;
-  const std::uint16_t low = closed_.low[taxel];
-  const std::uint16_t high = closed_.high[taxel];
   const Neighbours around = neighbours(row, column);
+  if (around.count == 0) return false;
   noteFullScale(taxel, around);
+  const Stretch window{double(closed_.low[taxel]), double(closed_.high[taxel]), double(floor_), 0,
+                       double(full_scale_)};
+  const bool shorted = evidence_[taxel] == (kLoadSeen | kRestSeen);
+  const auto verdictBy = [&](int neighbours) {
+    return verdictOf(window, {around.loaded >= neighbours, around.moved >= neighbours, shorted});
+  };
   const std::uint16_t before = flags_[taxel] & kVerdict;
-  std::uint16_t verdict = before, in_line = 0;
-  if (high <= floor_) {
-    if (2 * around.loaded > around.count) in_line = map::taxel_flag::kDead;
-    if (around.loaded >= around.needed) verdict = in_line;
-  } else if (low != high) {
-    verdict = 0;
-  } else if (high == full_scale_) {
-    if (isShort(taxel)) verdict = map::taxel_flag::kStuck;
-  } else {
-    if (2 * around.moved > around.count) in_line = map::taxel_flag::kStuck;
-    if (around.moved >= around.needed) verdict = in_line;
-  }
-  in_line_[taxel] = in_line;
+  const std::uint16_t verdict = verdictBy(around.needed).value_or(before);
+  in_line_[taxel] = verdictBy(around.count / 2 + 1).value_or(0);
   if (verdict == before) return false;
   if (verdict == 0) ++revivals_;
   flags_[taxel] = verdict;
@@ -110,9 +106,9 @@ bool TaxelWatch::judge(std::uint16_t row, std::uint16_t column) noexcept {
 
 void TaxelWatch::noteFullScale(std::size_t taxel, const Neighbours& around) noexcept {
   std::uint8_t& evidence = evidence_[taxel];
-  if (closed_.low[taxel] != full_scale_ || around.count == 0) {
+  if (closed_.low[taxel] != full_scale_)
     evidence = 0;
-  } else {
+  else {
     if (2 * around.loaded > around.count) evidence |= kLoadSeen;
     if (around.rested == around.count) evidence |= kRestSeen;
   }
@@ -122,50 +118,28 @@ bool TaxelWatch::judgeLines() noexcept {
   for (std::uint16_t& flags : flags_) flags &= static_cast<std::uint16_t>(~map::taxel_flag::kLineFault);
   bool found = false;
   const std::size_t rows = size_.rows, columns = size_.columns;
-  for (std::size_t row = 0; row < rows; ++row) {
-    found |= flagLine({row * columns, columns, 1, columns, row > 0, row + 1 < rows});
-  }
-  for (std::size_t column = 0; column < columns; ++column) {
-    found |= flagLine({column, rows, columns, 1, column > 0, column + 1 < columns});
-  }
+  for (std::size_t row = 0; row < rows; ++row)
+    found |= judgeLine({row * columns, columns, 1, columns, row > 0, row + 1 < rows});
+  for (std::size_t column = 0; column < columns; ++column)
+    found |= judgeLine({column, rows, columns, 1, column > 0, column + 1 < columns});
   return std::exchange(line_fault_, found) || found;
 }
 
-bool TaxelWatch::flagLine(const Line& line) noexcept {
-  const std::uint16_t verdict = line.count > 1 ? lineVerdict(line) : std::uint16_t{0};
-  if (verdict == 0) return false;
-  for (std::size_t i = 0; i < line.count; ++i) {
-    flags_[line.first + i * line.step] |= static_cast<std::uint16_t>(verdict | map::taxel_flag::kLineFault);
-  }
-  return true;
-}
-
-// kDead or kStuck where the whole line is dead or stuck, else 0.
-std::uint16_t TaxelWatch::lineVerdict(const Line& line) const noexcept {
+// Flags a line that is dead, stuck or shorted as a whole.
+bool TaxelWatch::judgeLine(const Line& line) noexcept {
   const bool outermost = !line.has_before || !line.has_behind;
-  const std::uint16_t common = commonVerdict(line, outermost);
-  if (common == 0 && isShorted(line)) return map::taxel_flag::kStuck;
-  return common;
-}
-
-std::uint16_t TaxelWatch::commonVerdict(const Line& line, bool with_line) const noexcept {
-  std::uint16_t common = kVerdict;
-  for (std::size_t i = 0; i < line.count; ++i) {
-    const std::size_t taxel = line.first + i * line.step;
-    const int verdict = with_line ? flags_[taxel] | in_line_[taxel] : flags_[taxel];
-    common = static_cast<std::uint16_t>(common & verdict);
+  bool shorted = line.has_before || line.has_behind;
+  std::uint16_t verdict = line.count > 1 ? kVerdict : std::uint16_t{0};
+  for (std::size_t taxel = line.first, i = 0; i < line.count; ++i, taxel += line.step) {
+    verdict &= static_cast<std::uint16_t>(flags_[taxel] | (outermost ? in_line_[taxel] : 0));
+    shorted = shorted && closed_.low[taxel] == full_scale_ &&
+              !(line.has_before && closed_.high[taxel - line.beside] >= travel_) &&
+              !(line.has_behind && closed_.high[taxel + line.beside] >= travel_);
   }
-  return common;
-}
-
-bool TaxelWatch::isShorted(const Line& line) const noexcept {
-  if (!line.has_before && !line.has_behind) return false;
-  for (std::size_t i = 0; i < line.count; ++i) {
-    const std::size_t taxel = line.first + i * line.step;
-    if (closed_.low[taxel] != full_scale_) return false;
-    if (line.has_before && closed_.high[taxel - line.beside] >= travel_) return false;
-    if (line.has_behind && closed_.high[taxel + line.beside] >= travel_) return false;
-  }
+  if (verdict == 0 && shorted && line.count > 1) verdict = map::taxel_flag::kStuck;
+  if (verdict == 0) return false;
+  for (std::size_t i = 0; i < line.count; ++i)
+    flags_[line.first + i * line.step] |= static_cast<std::uint16_t>(verdict | map::taxel_flag::kLineFault);
   return true;
 }
 

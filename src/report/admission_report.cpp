@@ -61,12 +61,12 @@ std::string healthText(const discrepancy::AdmittedRecording& row, const matrix::
   return linesOf(sentences, row.name + ": ");
 }
 
-std::string faultText(const discrepancy::Fault& fault, const matrix::Layout& layout) {
+std::string faultText(const health::Fault& fault, const matrix::Layout& layout) {
   const bool line = fault.isLine();
   const std::string where =
       line ? " " + std::to_string(fault.line) : " (row, column): " + places(fault.taxels, layout);
-  return fault.id + where + ", " + percent(fault.share, 2) + " of the scans, longest " +
-         settings::fixedText(fault.longest, 1) + " s";
+  return discrepancy::effectOf(fault).id + where + ", " + percent(fault.share, 2) +
+         " of the scans, longest " + settings::fixedText(fault.longest, 1) + " s";
 }
 
 // ", because A; and 2 more". The lines above list all reasons.
@@ -107,7 +107,7 @@ std::string admissionText(const discrepancy::Admission& admission) {
   std::string text = recordingsTable(admission);
   for (const discrepancy::AdmittedRecording& row : admission.recordings)
     text += healthText(row, admission.layout);
-  for (const discrepancy::Fault& fault : admission.faults)
+  for (const health::Fault& fault : admission.faults)
     text += "Intermittent fault: " + faultText(fault, admission.layout) + '\n';
   if (!admission.coverage.conditions.empty()) text += '\n' + coverageText(admission.coverage);
   std::vector<std::string> problems = admission.problems;

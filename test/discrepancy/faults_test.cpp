@@ -8,7 +8,7 @@
 namespace fsr::discrepancy {
 namespace {
 
-std::vector<Fault> faultsOf(const DiscrepancyProblem& problem) {
+std::vector<health::Fault> faultsOf(const DiscrepancyProblem& problem) {
   return findFaults(admit(problem), problem.options).faults;
 }
 
@@ -23,19 +23,19 @@ TEST(Faults, AreNoneWhereAllTaxelsChangeAlike) {
 }
 
 TEST(Faults, ADeadTaxelIsNoStuckOne) {
-  const std::vector<Fault> faults =
+  const std::vector<health::Fault> faults =
       faultsOf(planted::problem(planted::kTwoSpeeds, "  dead_taxel: {taxels: 1, first: 5, start: 700}\n"));
   ASSERT_EQ(faults.size(), 1u);
-  EXPECT_EQ(faults[0].id, "dead_taxel");
+  EXPECT_EQ(effectOf(faults[0]).id, "dead_taxel");
   EXPECT_EQ(faults[0].taxels, std::vector<std::size_t>{5});
   EXPECT_LE(faults[0].p, 0.01);
 }
 
 TEST(Faults, ALineIsFoundWithItsSpells) {
-  const std::vector<Fault> faults = faultsOf(
+  const std::vector<health::Fault> faults = faultsOf(
       planted::problem(planted::kTwoSpeeds, "  row_fault: {share: 0.04, line: 1, burst: 3, depth: 0.7}\n"));
   ASSERT_EQ(faults.size(), 1u);
-  EXPECT_EQ(faults[0].id, "row_fault");
+  EXPECT_EQ(effectOf(faults[0]).id, "row_fault");
   EXPECT_EQ(faults[0].line, 1u);
   EXPECT_GT(faults[0].share, 0.01);
   EXPECT_LT(faults[0].share, 0.08);
@@ -43,18 +43,18 @@ TEST(Faults, ALineIsFoundWithItsSpells) {
 
 // Three of twelve taxels are a column too often for a permutation test. Failing together decides.
 TEST(Faults, AColumnOfThreeIsNotThreeTaxels) {
-  const std::vector<Fault> faults = faultsOf(planted::problem(
+  const std::vector<health::Fault> faults = faultsOf(planted::problem(
       planted::kTwoSpeeds, "  column_fault: {share: 0.04, line: 1, burst: 3, depth: 0.7}\n"));
   ASSERT_EQ(faults.size(), 1u);
-  EXPECT_EQ(faults[0].id, "column_fault");
+  EXPECT_EQ(effectOf(faults[0]).id, "column_fault");
   EXPECT_EQ(faults[0].line, 1u);
 }
 
 // A loop of one row does the same in every cycle; a loose contact does not.
 TEST(Faults, ALoopOfOneRowIsNoLooseContact) {
-  const std::vector<Fault> faults = faultsOf(planted::problem(
-      planted::kTwoSpeeds, "  hysteresis: {loop_width: 0.08, only_taxels: [4, 5, 6, 7]}\n"));
-  EXPECT_TRUE(faults.empty()) << faults.front().id;
+  const std::vector<health::Fault> faults = faultsOf(
+      planted::problem(planted::kTwoSpeeds, "  hysteresis: {loop_width: 0.08, only_taxels: [4, 5, 6, 7]}\n"));
+  EXPECT_TRUE(faults.empty()) << effectOf(faults.front()).id;
 }
 
 TEST(Faults, WhatIsSmallerThanTheLeastGapIsNone) {

@@ -4,16 +4,10 @@
 
 #include <cmath>
 
-#include "support/synthetic_recording.h"
+#include "health/recorded.h"
 
 namespace fsr::health {
 namespace {
-
-dataset::Recording recorded() {
-  test_support::SyntheticRig rig;
-  rig.size = {4, 5};
-  return test_support::syntheticRecording(rig);
-}
 
 void keep(dataset::Recording& recording, std::size_t taxel, std::uint16_t code) {
   for (std::size_t i = 0; i < recording.scans(); ++i) recording.counts[i * 20 + taxel] = code;

@@ -29,6 +29,8 @@ struct TaxelWatchOptions {
 ///     alive  it rose above the floor and changed
 ///     else   the window shows nothing, and the taxel keeps its verdict
 ///
+/// The search for faults in recordings names taxels by the same rule (verdictOf()).
+///
 /// A taxel at the border of the sheet needs more: four of its five neighbours, and all three in a corner. The
 /// foot of an indenter can load three of five neighbours without touching the taxel between them.
 ///
@@ -100,17 +102,13 @@ class TaxelWatch {
   void widen(const std::uint16_t* counts) noexcept;
   bool judgeRow(std::uint16_t row) noexcept;
   bool judge(std::uint16_t row, std::uint16_t column) noexcept;
-  bool isShort(std::size_t taxel) const noexcept { return evidence_[taxel] == (kLoadSeen | kRestSeen); }
   /// A row or a column: `count` taxels from `first` on, `step` apart. The next line is `beside` away.
   struct Line {
     std::size_t first, count, step, beside;
     bool has_before, has_behind;
   };
   bool judgeLines() noexcept;
-  std::uint16_t lineVerdict(const Line& line) const noexcept;
-  std::uint16_t commonVerdict(const Line& line, bool with_line) const noexcept;
-  bool isShorted(const Line& line) const noexcept;
-  bool flagLine(const Line& line) noexcept;
+  bool judgeLine(const Line& line) noexcept;
   Neighbours neighbours(std::uint16_t row, std::uint16_t column) const noexcept;
 
   matrix::MatrixSize size_;

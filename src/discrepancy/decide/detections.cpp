@@ -297,17 +297,38 @@ simulation::EnabledEffect usualValues(const std::string& id) {
   return effect;
 }
 
+// The effect and the parameter values with which a simulation shows the fault.
+simulation::EnabledEffect asEffect(const health::Fault& fault) {
+  simulation::EnabledEffect effect = usualValues(effectOf(fault).id);
+  const auto set = [&](const char* name, double value) {
+    const auto found = effect.values.find(name);
+    if (found == effect.values.end()) return;
+    const settings::Range& range =
+        simulation::parameter(simulation::findEffect(effect.id)->info, name).permitted;
+    found->second = std::clamp(value, range.low, range.high);
+  };
+  set("taxels", static_cast<double>(fault.taxels.size()));
+  set("first", static_cast<double>(fault.taxels.front()));
+  set("start", fault.times.front().first);
+  set("line", static_cast<double>(fault.line));
+  set("share", fault.share);
+  set("depth", fault.depth);
+  double seconds = 0;
+  for (const auto& [from, to] : fault.times) seconds += to - from;
+  set("burst", seconds / static_cast<double>(fault.times.size()));
+  return effect;
+}
+
 }  // namespace
 
-Detection detectionOf(const Fault& fault, const FaultyReadings& readings, double square) {
-  Detection detection = plain(fault.detector, zOf(fault.p));
+Detection detectionOf(const health::Fault& fault, const FaultyReadings& readings) {
+  Detection detection = plain(effectOf(fault), zOf(fault.p));
   detection.enable = {asEffect(fault)};
   detection.where.taxels = fault.taxels;
   detection.where.conditions = readings.conditions;
   detection.where.pressure = readings.pressure;
   detection.where.times = fault.times;
   detection.before_more = readings.held_out_readings > 0 ? readings.held_out / readings.held_out_readings : 0;
-  static_cast<void>(square);
   return detection;
 }
 

@@ -50,7 +50,7 @@ struct Detection {
   bool wrong_form = false;
 };
 
-Detection detectionOf(const Fault& fault, const FaultyReadings& readings, double square);
+Detection detectionOf(const health::Fault& fault, const FaultyReadings& readings);
 Detection detectionOf(const Mains& mains, double square, const Measured& measured);
 Detection detectionOf(const Repositioning& repositioning, double square);
 /// An effect that wanders at random. On some taxels only, it is stronger there than in the common trace, by

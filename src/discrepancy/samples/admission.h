@@ -40,7 +40,7 @@ struct Admission {
   std::vector<AdmittedRecording> recordings;
   dataset::Coverage coverage;  ///< empty where there is no reference or a curvature is unknown
   matrix::Layout layout;
-  std::vector<Fault> faults;  ///< spells of failing taxels and lines; empty if the search is not possible
+  std::vector<health::Fault> faults;  ///< spells of failing taxels and lines; empty if the search is not possible
   std::string training;       ///< why `train` would refuse the recordings; empty = it accepts them
   std::string discrepancy;    ///< why `discrepancy` would refuse them; empty = it accepts them
   std::vector<std::string> problems;  ///< why the result of a training would mislead, worst first

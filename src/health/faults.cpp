@@ -1,0 +1,571 @@
+#include "health/faults.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <optional>
+
+#include "health/reading_rule.h"
+#include "health/taxel_courses.h"
+#include "statistics/samples.h"
+
+namespace fsr::health {
+
+namespace {
+
+constexpr std::size_t kFewestOfALine = 3;                          // taxels; fewer are no line
+constexpr std::size_t kFewestForQuartiles = 8;                     // taxels; fewer have no quartiles
+constexpr std::size_t kFewestLines = 3;                            // fewer have no neighbours
+const std::vector<std::size_t> kSpansOfSteps = {2, 4, 8, 16, 32};  // scans beside a step
+// Quantiles of Gumbel's standard distribution: median, and difference of the quartiles.
+constexpr double kGumbelMedian = 0.36651, kGumbelQuartiles = 1.57253;
+// Least scale of the logarithm of the taxels' largest deviations: they differ by some per cent by chance
+// alone, and by steps of the converter.
+constexpr double kLeastScale = 0.1;
+constexpr double kLeastMean = 1e-6;  // has a logarithm
+// Share of a taxel's range above which the others certainly load it, or move it.
+constexpr double kShows = 0.3;
+// Limits of the rule: deviations of the noise, and the least share of a taxel's range.
+constexpr double kBeyondNoise = 5, kLeastLimit = 0.02;
+constexpr double kOpen = 0.001;  // share of full scale; see TaxelWatchOptions::floor_share
+// Share of the readings in the second half of a spell that may lie beyond the limits. In the first half a
+// fault may still be on its way.
+constexpr double kOutside = 0.05;
+// Share of a taxel's squared error that its kind must account for.
+constexpr double kOfOneKind = 0.7;
+
+// Share of the squared deviations of a line that the direction explains at the same reading. A line that does
+// the same in every cycle has a loop or a lag; a contact fails at any time.
+constexpr double kLoop = 0.3;
+constexpr double kReadingBin = 0.1;  // of the range of the median reading
+constexpr double kOwnStep = 0.5;     // of a line, per step of it less the lines beside it
+constexpr double kTogether = 0.5;    // share of the scans in which the taxels of a line fail together
+
+// Whether a taxel or a line fails, [stays][scans].
+using Spells = std::vector<std::vector<bool>>;
+
+// Taxels that fail, each with its spells.
+using Members = std::map<std::size_t, Spells>;
+
+std::size_t lineOf(const matrix::Layout& layout, FaultKind kind, std::size_t taxel) {
+  return kind == FaultKind::kRow ? layout.row({taxel}) : layout.column({taxel});
+}
+
+// Deviations of a taxel, or of a line from those beside it, [stays][scans].
+using Course = std::vector<std::vector<float>>;
+
+// Logarithms of the largest means of some courses, [courses x spans].
+using Largest = Eigen::ArrayXXd;
+
+// From the largest sums over each number of scans, [courses x spans].
+Largest logarithmsOf(Largest sums, const std::vector<std::size_t>& spans) {
+  for (std::size_t s = 0; s < spans.size(); ++s) sums.col(s) /= double(spans[s]);
+  return sums.max(kLeastMean).log();
+}
+
+// Of one course over each number of scans, [1 x spans].
+Largest largestMeans(const Course& course, const std::vector<std::size_t>& spans) {
+  Largest largest = Largest::Zero(1, Eigen::Index(spans.size()));
+  for (const std::vector<float>& stay : course) {
+    std::vector<double> sum(stay.size() + 1, 0);
+    for (std::size_t i = 0; i < stay.size(); ++i) sum[i + 1] = sum[i] + double(stay[i]);
+    for (std::size_t s = 0; s < spans.size(); ++s) {
+      double most = largest(0, s);
+      for (std::size_t at = 0; at + spans[s] < sum.size(); ++at)
+        most = std::max(most, std::abs(sum[at + spans[s]] - sum[at]));
+      largest(0, s) = most;
+    }
+  }
+  return logarithmsOf(largest, spans);
+}
+
+// What some courses do, without their scans.
+class CourseSums {
+ public:
+  explicit CourseSums(Eigen::Index courses)
+      : last_(courses, Eigen::Index(2 * kSpansOfSteps.back() + 1)),
+        most_(Eigen::ArrayXXd::Zero(courses, Eigen::Index(kSpansOfSteps.size()))),
+        squares_(Eigen::ArrayXd::Zero(courses)),
+        between_(squares_) {}
+
+  // `scan` counts from 0 in each stay. `reading`: 0 .. 1 from the lowest to the highest.
+  void add(std::size_t scan, double reading, bool rising, const Eigen::ArrayXd& values) {
+    const auto before = [&](std::size_t back) { return last_.col((scan + 1 - back) % last_.cols()); };
+    if (scan == 0) {
+      finishStay();
+      before(1).setZero();
+    }
+    before(0) = before(1) + values;
+    for (std::size_t s = 0; s < kSpansOfSteps.size() && 2 * kSpansOfSteps[s] <= scan + 1; ++s) {
+      const std::size_t span = kSpansOfSteps[s];
+      most_.col(s) = most_.col(s).max((before(0) - 2 * before(span) + before(2 * span)).abs());
+    }
+    Bin& bin = bins_[std::lround(reading / kReadingBin)][rising];
+    if (bin.number == 0) bin.sum.setZero(values.size());
+    bin.sum += values;
+    bin.number += 1;
+    squares_ += values.square();
+  }
+  void finishStay() {
+    for (const auto& [reading, bin] : bins_) {
+      const double a = bin[0].number, b = bin[1].number;
+      if (a > 0 && b > 0) between_ += a * b / (a + b) * (bin[0].sum / a - bin[1].sum / b).square();
+    }
+    bins_.clear();
+  }
+  // Of the mean over each of kSpansOfSteps scans less that over those before.
+  Largest largestSteps() const { return logarithmsOf(most_, kSpansOfSteps); }
+  // Whether the course does the same in every cycle: it differs by direction at the same reading.
+  bool isLoop(Eigen::Index course) const { return between_[course] > kLoop * squares_[course]; }
+
+ private:
+  struct Bin {
+    double number = 0;
+    Eigen::ArrayXd sum;
+  };
+
+  Eigen::ArrayXXd last_;                     // sums of the values up to each of the last scans
+  Eigen::ArrayXXd most_;                     // largest differences of two sums, [courses x spans]
+  std::map<long, std::array<Bin, 2>> bins_;  // by reading; falling, rising
+  Eigen::ArrayXd squares_, between_;
+};
+
+// Distribution of a logarithm over the taxels.
+struct Gumbel {
+  double location = 0, scale = kLeastScale;
+
+  explicit Gumbel(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    const auto at = [&](double share) {
+      return values[static_cast<std::size_t>(share * double(values.size() - 1))];
+    };
+    scale = std::max(kLeastScale, (at(0.75) - at(0.25)) / kGumbelQuartiles);
+    location = at(0.5) - kGumbelMedian * scale;
+  }
+  double p(double value) const { return -std::expm1(-std::exp(-(value - location) / scale)); }
+  // Value that only a share p of all exceed.
+  double exceededBy(double p) const { return location - scale * std::log(-std::log1p(-p)); }
+};
+
+// Where the largest means of one course are outliers.
+struct Outlier {
+  double p = 1;                     // for any span
+  std::optional<std::size_t> span;  // the shortest with an outlier: a longer one also grows beside a spell
+  double limit = 0;                 // of the mean over it
+};
+
+// Calls use(from, to) for each spell.
+template <typename Use>
+void eachSpell(const std::vector<bool>& fails, Use use) {
+  for (std::size_t from = 0; from < fails.size();) {
+    std::size_t to = from;
+    while (to < fails.size() && fails[to] == fails[from]) ++to;
+    if (fails[from]) use(from, to);
+    from = to;
+  }
+}
+
+// A taxel that fails.
+struct FailingTaxel {
+  std::size_t taxel = 0;
+  std::optional<FaultKind> kind;  // none: it is neither dead nor stuck
+  double p = 1;
+  Spells spells;
+};
+
+// A row or column.
+struct Line {
+  FaultKind kind;
+  std::vector<std::size_t> taxels;  // the sound ones
+  std::vector<std::size_t> beside;  // indices of the lines beside it
+  double noise = INFINITY;          // of its contrast, per noise of a taxel
+};
+
+class FaultSearch {
+ public:
+  FaultSearch(const Sheet& sheet, const FaultOptions& options)
+      : sheet_(sheet), options_(options), courses_(taxelCourses(sheet)) {
+    for (std::size_t t = 0; t < sheet.used.size(); ++t) {
+      if (sheet.used[t]) taxels_.push_back(t);
+    }
+  }
+  Faults run(const FaultProgress& progress);
+
+ private:
+  std::vector<Line> linesOf(const std::vector<FaultKind>& kinds) const;
+  template <typename Use>
+  void eachScan(const std::vector<Line>& lines, Use use) const;
+  CourseSums sumsOf(const std::vector<Line>& lines) const;
+  Outlier judge(const Eigen::ArrayXd& own, const Largest& all, const std::vector<std::size_t>& others,
+                double tests) const;
+  Course courseOf(std::size_t taxel) const;
+  void join(std::size_t taxel, Spells& spells) const;
+  std::optional<FaultKind> kindOf(std::size_t taxel, const Spells& spells) const;
+  std::vector<FailingTaxel> failingTaxels() const;
+  bool findLine(const std::vector<FaultKind>& kinds);
+  void joinLines(FaultKind kind, const std::vector<FailingTaxel>& failing);
+  bool keep(FaultKind kind, double p, const Members& members);
+  bool isSound(std::size_t taxel) const { return std::count(taxels_.begin(), taxels_.end(), taxel) > 0; }
+
+  const Sheet& sheet_;
+  const FaultOptions& options_;
+  std::vector<StayCourses> courses_;
+  std::vector<std::size_t> taxels_;  // the sound ones
+  Faults faults_;
+};
+
+// Rows or columns with enough sound taxels.
+std::vector<Line> FaultSearch::linesOf(const std::vector<FaultKind>& kinds) const {
+  std::vector<Line> lines;
+  for (const FaultKind kind : kinds) {
+    const std::size_t first = lines.size();
+    std::map<std::size_t, std::vector<std::size_t>> all;
+    for (const std::size_t t : taxels_) all[lineOf(sheet_.layout, kind, t)].push_back(t);
+    for (const auto& [line, taxels] : all)
+      if (taxels.size() >= kFewestOfALine) lines.push_back({kind, taxels, {}});
+    if (lines.size() < first + kFewestLines) continue;
+    for (std::size_t l = first; l < lines.size(); ++l) {
+      if (l > first) lines[l].beside.push_back(l - 1);
+      if (l + 1 < lines.size()) lines[l].beside.push_back(l + 1);
+      double variance = 1 / double(lines[l].taxels.size());
+      for (const std::size_t b : lines[l].beside)
+        variance += 1 / (double(lines[b].taxels.size()) * std::pow(lines[l].beside.size(), 2));
+      lines[l].noise = std::sqrt(variance * M_PI / 2);  // a median has pi / 2 times the variance of a mean
+    }
+  }
+  return lines;
+}
+
+// Calls use(stay, scan, values) for each scan. Values: the deviations of all taxels; the median of those of
+// each line, in which what less than half of its taxels do does not count; and the contrast of each line,
+// which is its median less those of the lines beside it.
+template <typename Use>
+void FaultSearch::eachScan(const std::vector<Line>& lines, Use use) const {
+  const auto taxels = static_cast<Eigen::Index>(sheet_.used.size());
+  Eigen::ArrayXd values(taxels + 2 * Eigen::Index(lines.size()));
+  std::vector<double> of_line;
+  for (std::size_t v = 0; v < courses_.size(); ++v) {
+    dataset::ScanCounts counts(*sheet_.stays[v].recording);
+    for (std::size_t i = 0; i < courses_[v].scans(); ++i) {
+      courses_[v].deviations(i, counts[sheet_.stays[v].first + i], values.head(taxels));
+      double* const median = values.data() + taxels;
+      for (std::size_t l = 0; l < lines.size(); ++l) {
+        of_line.clear();
+        for (const std::size_t t : lines[l].taxels) of_line.push_back(values[t]);
+        const auto middle = of_line.begin() + of_line.size() / 2;
+        std::nth_element(of_line.begin(), middle, of_line.end());
+        median[l] = *middle;
+      }
+      for (std::size_t l = 0; l < lines.size(); ++l) {
+        double beside = 0;
+        for (const std::size_t b : lines[l].beside) beside += median[b] / double(lines[l].beside.size());
+        median[lines.size() + l] = median[l] - beside;
+      }
+      use(v, i, values);
+    }
+  }
+}
+
+CourseSums FaultSearch::sumsOf(const std::vector<Line>& lines) const {
+  CourseSums sums(Eigen::Index(sheet_.used.size() + 2 * lines.size()));
+  eachScan(lines, [&](std::size_t v, std::size_t i, const Eigen::ArrayXd& values) {
+    const double reading = double(courses_[v].place[i]) / double(courses_[v].curve.cols() - 1);
+    sums.add(i, reading, sheet_.stays[v].rising[i], values);
+  });
+  sums.finishStay();
+  return sums;
+}
+
+// `own`: logarithms of the largest means, [spans]. `others`: rows of `all`.
+Outlier FaultSearch::judge(const Eigen::ArrayXd& own, const Largest& all,
+                           const std::vector<std::size_t>& others, double tests) const {
+  Outlier outlier;
+  if (others.size() < kFewestForQuartiles) return outlier;
+  for (Eigen::Index s = 0; s < own.size(); ++s) {
+    std::vector<double> values;
+    for (const std::size_t other : others) values.push_back(all(other, s));
+    const Gumbel usual(values);
+    outlier.p = std::min(outlier.p, tests * usual.p(own[s]));
+    const double limit = usual.exceededBy(options_.level / tests);
+    if (outlier.span || own[s] < limit) continue;
+    outlier.span = s;
+    outlier.limit = std::exp(limit);
+  }
+  return outlier;
+}
+
+// Spells in which a course is about `limit` or more away from 0 for `span` scans, or farther for fewer: they
+// begin and end where the sum of what lies beyond half the limit is smallest and largest. Source: E. Page,
+// Continuous inspection schemes, Biometrika 41 (1954) 100.
+Spells spellsOf(const Course& course, std::size_t span, double limit) {
+  const double enough = double(span) * limit / 2;
+  Spells spells;
+  for (const std::vector<float>& stay : course) {
+    spells.emplace_back(stay.size(), false);
+    for (const double sign : {-1, 1}) {
+      double sum = 0, most = 0;
+      for (std::size_t i = 0, from = 0, to = 0; i < stay.size(); ++i) {
+        sum += sign * double(stay[i]) - limit / 2;
+        if (sum > most) {
+          most = sum;
+          to = i + 1;
+        }
+        if (sum > 0 && most - sum < enough && i + 1 < stay.size()) continue;
+        if (most >= enough) {
+          std::fill(spells.back().begin() + from, spells.back().begin() + to, true);
+          i = to - 1;
+        }
+        sum = most = 0;
+        from = i + 1;
+      }
+    }
+  }
+  return spells;
+}
+
+Course FaultSearch::courseOf(std::size_t taxel) const {
+  Course course;
+  for (const StayCourses& stay : courses_) {
+    course.emplace_back(stay.scans());
+    TaxelCourse of_taxel(stay, taxel);
+    for (std::size_t i = 0; i < stay.scans(); ++i)
+      course.back()[i] = static_cast<float>(of_taxel.deviates(i));
+  }
+  return course;
+}
+
+// Joins spells of one fault: between them it would not have shown, or it shows in most scans.
+void FaultSearch::join(std::size_t taxel, Spells& spells) const {
+  for (std::size_t v = 0; v < spells.size(); ++v) {
+    std::vector<bool> joined = spells[v];
+    TaxelCourse course(courses_[v], taxel);
+    std::size_t last = joined.size(), run = 0;  // end and length of the spell before
+    eachSpell(spells[v], [&](std::size_t from, std::size_t to) {
+      bool hidden = from > last;
+      for (std::size_t i = last; i < from && hidden; ++i)
+        hidden = courses_[v].expected(taxel, i) < kShows || std::abs(course.deviates(i)) > kShows;
+      if (from > last && (hidden || from - last <= std::min(run, to - from) / 2))
+        std::fill(joined.begin() + last, joined.begin() + from, true);
+      last = to;
+      run = to - from;
+    });
+    spells[v] = joined;
+  }
+}
+
+// Holds the readings at the end of each spell against what is expected. Spells that show nothing do not
+// count; others count by their squared errors, so spells of two kinds are neither.
+std::optional<FaultKind> FaultSearch::kindOf(std::size_t taxel, const Spells& spells) const {
+  std::vector<double> sound;
+  const double code = 0.5 / sheet_.full_scale;
+  double kept = 1, steps = 2;  // readings that are those of the scan before, and all
+  double unloaded = INFINITY;  // lowest reading of the sheet [share of full scale]
+  for (std::size_t v = 0; v < courses_.size(); ++v) {
+    for (const std::size_t t : taxels_) unloaded = std::min(unloaded, courses_[v].lowest[t]);
+    TaxelCourse course(courses_[v], taxel);
+    for (std::size_t i = 0; i < courses_[v].scans(); ++i) {
+      if (spells[v][i]) continue;
+      sound.push_back(std::abs(course.deviates(i)));
+      if (i == 0 || spells[v][i - 1]) continue;
+      kept += std::abs(course.reading(i) - course.reading(i - 1)) < code;
+      steps += 1;
+    }
+  }
+  const double noise = statistics::kDeviationPerMedian * statistics::upperMedian(sound, 0);
+  const double limit = std::max(kLeastLimit, kBeyondNoise * noise);  // [range of the taxel]
+  double all = 0, dead = 0, stuck = 0;
+  for (std::size_t v = 0; v < courses_.size(); ++v) {
+    const StayCourses& stay = courses_[v];
+    TaxelCourse course(stay, taxel);
+    eachSpell(spells[v], [&](std::size_t from, std::size_t to) {
+      std::vector<double> reading, expected;
+      double square = 0;
+      for (std::size_t i = from; i < to; ++i) {
+        square += std::pow(course.deviates(i), 2);
+        if (i - from < (to - from) / 2) continue;
+        reading.push_back(course.reading(i));
+        expected.push_back(stay.expected(taxel, i));
+      }
+      std::sort(reading.begin(), reading.end());
+      const auto outside = static_cast<std::size_t>(kOutside * double(reading.size()));
+      const auto [low, high] = std::minmax_element(expected.begin(), expected.end());
+      // One code for so long that the noise of a sound taxel would have changed it: no open circuit either.
+      const bool frozen = reading.back() - reading.front() < code &&
+                          std::pow(kept / steps, double(reading.size() - 1)) < options_.level;
+      const double most = limit * stay.unit[taxel];
+      const double floor = std::max(kOpen, unloaded + (frozen ? -most : most));
+      const auto verdict =
+          verdictOf({reading[outside], reading[reading.size() - 1 - outside], floor, most, INFINITY},
+                    {*high >= kShows, frozen || *high - *low >= std::max(kShows, 2 * limit), false});
+      all += verdict ? square : 0;
+      if (verdict == map::taxel_flag::kDead) dead += square;
+      if (verdict == map::taxel_flag::kStuck) stuck += square;
+    });
+  }
+  if (all == 0 || std::max(dead, stuck) < kOfOneKind * all) return {};
+  return dead > stuck ? FaultKind::kDeadTaxels : FaultKind::kStuckTaxels;
+}
+
+std::vector<FailingTaxel> FaultSearch::failingTaxels() const {
+  std::size_t longest = 0;
+  for (const StayCourses& stay : courses_) longest = std::max(longest, stay.scans());
+  std::vector<std::size_t> spans;
+  for (std::size_t span = 2; span <= longest; span *= 2) spans.push_back(span);
+  Largest all(sheet_.used.size(), spans.size());
+  for (const std::size_t taxel : taxels_) all.row(taxel) = largestMeans(courseOf(taxel), spans);
+  std::vector<FailingTaxel> failing;
+  for (const std::size_t taxel : taxels_) {
+    const Outlier outlier = judge(all.row(taxel), all, taxels_, double(taxels_.size() * spans.size()));
+    if (!outlier.span) continue;
+    Spells spells = spellsOf(courseOf(taxel), spans[*outlier.span], outlier.limit);
+    join(taxel, spells);
+    failing.push_back({taxel, kindOf(taxel, spells), outlier.p, spells});
+  }
+  return failing;
+}
+
+// Keeps the line that stands out most among the taxels of the other lines.
+bool FaultSearch::findLine(const std::vector<FaultKind>& kinds) {
+  const std::vector<Line> lines = linesOf(kinds);
+  const CourseSums sums = sumsOf(lines);
+  const Largest largest = sums.largestSteps();
+  const matrix::MatrixSize size = sheet_.layout.size;
+  const double tests = double(size.rows + size.columns) * double(kSpansOfSteps.size());
+  Outlier best;
+  std::size_t line = 0;
+  for (std::size_t l = 0; l < lines.size(); ++l) {
+    std::vector<std::size_t> others;
+    std::set_difference(taxels_.begin(), taxels_.end(), lines[l].taxels.begin(), lines[l].taxels.end(),
+                        std::back_inserter(others));
+    const std::size_t own = sheet_.used.size() + l, contrast = own + lines.size();
+    const Outlier outlier = judge(largest.row(contrast) - std::log(lines[l].noise), largest, others, tests);
+    if (!outlier.span || outlier.p >= best.p || sums.isLoop(Eigen::Index(contrast))) continue;
+    // It steps itself, and not only the lines beside it.
+    if (largest(own, *outlier.span) < std::log(kOwnStep) + largest(contrast, *outlier.span)) continue;
+    best = outlier;
+    line = l;
+  }
+  if (!best.span) return false;
+  Course contrast(courses_.size());
+  eachScan(lines, [&](std::size_t v, std::size_t, const Eigen::ArrayXd& values) {
+    contrast[v].push_back(static_cast<float>(values[sheet_.used.size() + lines.size() + line]));
+  });
+  // A step has the noise of two means.
+  const double limit = best.limit * lines[line].noise / std::sqrt(2);
+  const Spells spells = spellsOf(contrast, kSpansOfSteps[*best.span], limit);
+  Members members;
+  for (const std::size_t taxel : lines[line].taxels) members[taxel] = spells;
+  return keep(lines[line].kind, best.p, members);
+}
+
+// Share of the scans in which one of two taxels fails that both fail in.
+double together(const Spells& a, const Spells& b) {
+  double both = 0, any = 0;
+  for (std::size_t v = 0; v < a.size(); ++v) {
+    for (std::size_t i = 0; i < a[v].size(); ++i) {
+      both += a[v][i] && b[v][i];
+      any += a[v][i] || b[v][i];
+    }
+  }
+  return any > 0 ? both / any : 0;
+}
+
+// Taxels that fail together and make up a line have one cause.
+void FaultSearch::joinLines(FaultKind kind, const std::vector<FailingTaxel>& failing) {
+  for (const Line& line : linesOf({kind})) {
+    Members members;
+    double p = 1;
+    for (const FailingTaxel& one : failing) {
+      if (!std::count(line.taxels.begin(), line.taxels.end(), one.taxel)) continue;
+      if (!members.empty() && together(members.begin()->second, one.spells) < kTogether) continue;
+      members[one.taxel] = one.spells;
+      p = std::min(p, one.p);
+    }
+    if (members.size() < line.taxels.size()) continue;
+    if (!sumsOf({{kind, line.taxels, {}}}).isLoop(Eigen::Index(sheet_.used.size()))) keep(kind, p, members);
+  }
+}
+
+// Computes times, share, depth and size of a fault from the spells of its taxels, and keeps it where its size
+// matters.
+bool FaultSearch::keep(FaultKind kind, double p, const Members& members) {
+  Fault fault;
+  fault.kind = kind;
+  fault.p = p;
+  if (fault.isLine()) fault.line = lineOf(sheet_.layout, kind, members.begin()->first);
+  double hit = 0, all = 0, lost = 0, lost_of = 0, square = 0;
+  std::vector<std::vector<float>> squares = faults_.squares;
+  squares.resize(courses_.size());
+  for (std::size_t v = 0; v < courses_.size(); ++v) {
+    squares[v].resize(courses_[v].scans());
+    std::vector<TaxelCourse> courses;
+    for (const auto& [taxel, spells] : members) courses.emplace_back(courses_[v], taxel);
+    bool before = false;
+    for (std::size_t i = 0; i < courses_[v].scans(); ++i) {
+      bool now = false;
+      auto course = courses.begin();
+      for (const auto& [taxel, spells] : members) {
+        TaxelCourse& own = *course++;
+        if (!spells[v][i]) continue;
+        now = true;
+        const double deviation = own.deviates(i);
+        square += deviation * deviation;
+        squares[v][i] += static_cast<float>(std::pow(deviation * courses_[v].unit[taxel], 2));
+        lost -= deviation;
+        lost_of += courses_[v].expected(taxel, i);
+      }
+      all += 1;
+      hit += now;
+      const double time = sheet_.stays[v].time(i);
+      if (now && !before) fault.times.emplace_back(time, time);
+      if (now) fault.times.back().second = time;
+      before = now;
+    }
+  }
+  for (const auto& [from, to] : fault.times) fault.longest = std::max(fault.longest, to - from);
+  fault.share = hit / std::max(1.0, all);
+  fault.depth = lost_of > 0 ? lost / lost_of : 0;
+  const double error = std::sqrt(square / (std::max(1.0, all) * double(members.size())));
+  for (const auto& [taxel, spells] : members) fault.taxels.push_back(taxel);
+  if (hit == 0 || error < options_.least_error) return false;
+  for (const std::size_t taxel : fault.taxels)
+    taxels_.erase(std::find(taxels_.begin(), taxels_.end(), taxel));
+  faults_.faults.push_back(std::move(fault));
+  faults_.squares = std::move(squares);
+  return true;
+}
+
+Faults FaultSearch::run(const FaultProgress& progress) {
+  const auto tell = [&](double share) {  // as measured on sound bags
+    if (progress) progress(share);
+  };
+  tell(0.3);
+  std::vector<FaultKind> kinds = {FaultKind::kRow, FaultKind::kColumn};  // at most one of each
+  while (findLine(kinds)) kinds.erase(std::find(kinds.begin(), kinds.end(), faults_.faults.back().kind));
+  tell(0.8);
+  const std::vector<FailingTaxel> failing = failingTaxels();
+  for (const FaultKind kind : {FaultKind::kRow, FaultKind::kColumn}) joinLines(kind, failing);
+  for (const FaultKind kind : {FaultKind::kStuckTaxels, FaultKind::kDeadTaxels}) {
+    Members members;
+    double p = 1;
+    for (const FailingTaxel& one : failing) {
+      if (one.kind != kind || !isSound(one.taxel)) continue;
+      members[one.taxel] = one.spells;
+      p = std::min(p, one.p);
+    }
+    if (!members.empty()) keep(kind, p, members);
+  }
+  tell(1);
+  return std::move(faults_);
+}
+
+}  // namespace
+
+Faults findFaults(const Sheet& sheet, const FaultOptions& options, const FaultProgress& progress) {
+  return FaultSearch(sheet, options).run(progress);
+}
+
+}  // namespace fsr::health

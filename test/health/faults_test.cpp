@@ -1,0 +1,97 @@
+// Plants faults into the readings of a synthetic sheet and checks what is found, and that a recording and
+// live scans are judged by one rule.
+#include "health/faults.h"
+
+#include <gtest/gtest.h>
+
+#include "health/reading_rule.h"
+#include "health/recorded.h"
+
+namespace fsr::health {
+namespace {
+
+using map::taxel_flag::kDead;
+using map::taxel_flag::kStuck;
+
+std::vector<Fault> faultsOf(const dataset::Recording& recording) {
+  Sheet sheet{recording.layout, double(recording.full_scale), {}, std::vector<bool>(recording.layout.size.taxels(), true)};
+  sheet.stays.push_back({&recording, 0, recording.scans(), 0, 0, {}});
+  for (std::size_t i = 0; i < recording.scans(); ++i)
+    sheet.stays[0].rising.push_back(i > 0 && recording.pressure[i] > recording.pressure[i - 1]);
+  return findFaults(sheet).faults;
+}
+
+// Sets the readings of the taxels in the middle tenth of the recording.
+template <typename Value>
+dataset::Recording failing(const std::vector<std::size_t>& taxels, Value value) {
+  dataset::Recording recording = recorded();
+  for (std::size_t i = recording.scans() * 45 / 100; i < recording.scans() * 55 / 100; ++i)
+    for (const std::size_t t : taxels)
+      recording.counts[i * 20 + t] = static_cast<std::uint16_t>(value(recording.counts[i * 20 + t]));
+  return recording;
+}
+
+TEST(FaultsOfASheet, AreNoneOnAHealthyOne) {
+  EXPECT_TRUE(faultsOf(recorded()).empty());
+}
+
+TEST(FaultsOfASheet, AreNamedWithTheirTimes) {
+  const std::vector<Fault> dead = faultsOf(failing({7}, [](int) { return 0; }));
+  ASSERT_EQ(dead.size(), 1u);
+  EXPECT_TRUE(dead[0].kind == FaultKind::kDeadTaxels);
+  EXPECT_EQ(dead[0].taxels, std::vector<std::size_t>{7});
+  EXPECT_LE(dead[0].share, 0.11);
+  const std::vector<Fault> stuck = faultsOf(failing({13}, [](int) { return 1400; }));
+  ASSERT_EQ(stuck.size(), 1u);
+  EXPECT_TRUE(stuck[0].kind == FaultKind::kStuckTaxels);
+}
+
+TEST(FaultsOfASheet, AreOfNoKindWhereTheTaxelStillFollowsTheLoad) {
+  EXPECT_TRUE(faultsOf(failing({7}, [](int count) { return count / 2; })).empty());
+}
+
+// The median of a line counts, so one taxel makes no line.
+TEST(FaultsOfASheet, AreLinesOnlyWhereTheirTaxelsFailTogether) {
+  const auto half = [](int count) { return count / 2; };
+  const std::vector<Fault> row = faultsOf(failing({5, 6, 7, 8, 9}, half));
+  ASSERT_EQ(row.size(), 1u);
+  EXPECT_TRUE(row[0].kind == FaultKind::kRow);
+  EXPECT_EQ(row[0].line, 1u);
+  for (const Fault& fault : faultsOf(failing({7, 12}, half))) EXPECT_FALSE(fault.isLine());
+}
+
+// A loose contact loses two thirds of the readings of a noisy row in bursts.
+TEST(FaultsOfASheet, HaveSpellsAsLongAsThePlantedOnes) {
+  test_support::SyntheticRig rig;
+  rig.size = {6, 10};
+  rig.cycles = 20;
+  rig.noise = 300;
+  for (const std::size_t length : {10, 25, 60}) {
+    dataset::Recording loose = test_support::syntheticRecording(rig);
+    std::size_t spells = 0;
+    for (std::size_t start = 60; start + length < loose.scans(); start += 230, ++spells) {
+      for (std::size_t i = start; i < start + length; ++i)
+        for (std::size_t t = 20; t < 30; ++t) loose.counts[i * 60 + t] /= 3;
+    }
+    const std::vector<Fault> faults = faultsOf(loose);
+    ASSERT_EQ(faults.size(), 1u) << length;
+    EXPECT_TRUE(faults[0].kind == FaultKind::kRow);
+    EXPECT_EQ(faults[0].times.size(), spells) << length;
+    const double share = double(spells * length) / double(loose.scans());
+    EXPECT_NEAR(faults[0].share, share, 0.1 * share) << length;
+  }
+}
+
+TEST(ReadingRule, CallsATaxelDeadOrStuckOnlyByWhatTheOthersDo) {
+  constexpr Others kNothing{}, kLoaded{true, false, false}, kMoved{true, true, false}, kAll{true, true, true};
+  EXPECT_EQ(verdictOf({0, 3, 4, 0, 4095}, kNothing), std::nullopt);
+  EXPECT_EQ(verdictOf({0, 3, 4, 0, 4095}, kLoaded), kDead);
+  EXPECT_EQ(verdictOf({812, 812, 4, 0, 4095}, kLoaded), std::nullopt);
+  EXPECT_EQ(verdictOf({812, 812, 4, 0, 4095}, kMoved), kStuck);
+  EXPECT_EQ(verdictOf({812, 813, 4, 0, 4095}, kMoved), 0);
+  EXPECT_EQ(verdictOf({4095, 4095, 4, 0, 4095}, kMoved), std::nullopt);
+  EXPECT_EQ(verdictOf({4095, 4095, 4, 0, 4095}, kAll), kStuck);
+}
+
+}  // namespace
+}  // namespace fsr::health
