@@ -10,6 +10,7 @@
 #include <random>
 
 #include "calibration/merge.h"
+#include "calibration/stages/memory/history_folds.h"
 #include "calibration/stages/memory/history_stream.h"
 #include "calibration/stages/memory/history_training.h"
 #include "fsr_pressure_map/calibration/calibration.h"
@@ -127,6 +128,26 @@ TEST(HistoryTraining, StatesADeviationThatHoldsInBothDirections) {
   for (std::size_t part = 0; part < 3; ++part)
     EXPECT_NEAR(calibration.scores.history.parts[part].within_one_deviation, 0.683, 0.04)
         << calibration.scores.history.parts[part].name;
+}
+
+// By readings, the long protocol with small errors would leave 50 % in the mean.
+TEST(HistoryErrors, CoverTheMeanProtocolHoweverLongEachIs) {
+  HistoryErrors errors(600e3, 1e3, 2);
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal;
+  const std::vector<double> scatter = {1e3, 4e3};  // [Pa]
+  for (std::size_t i = 0; i < 20000; ++i) {
+    HistoryErrors::Reading reading;
+    reading.protocol = i % 10 == 0;
+    reading.answer = 300e3;
+    reading.truth = reading.answer + scatter[reading.protocol] * normal(random);
+    errors.add(reading);
+  }
+  HistoryModel model;
+  errors.setDeviation(model);
+  double within = 0;
+  for (const double own : scatter) within += std::erf(model.loading_deviation[6] / own / std::sqrt(2.0)) / 2;
+  EXPECT_NEAR(within, 0.683, 0.03);
 }
 
 TEST(HistoryTraining, NeedsTwoProtocols) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "calibration/stages/memory/history_parts.h"
 #include "matrix/for_each_taxel.h"
@@ -12,11 +13,12 @@ namespace {
 
 constexpr double kWithin = 0.682689492;  // of a normal distribution within one deviation
 constexpr double kSmallest = 1e-6;       // of the absolute errors that are told apart, share of `highest`
+constexpr std::size_t kTogether = 16;    // taxels whose sums are in memory at one time
 
 }  // namespace
 
-HistoryErrors::HistoryErrors(double highest, double known)
-    : highest_(highest), known_(known), parts_(kHistoryParts + 1) {}
+HistoryErrors::HistoryErrors(double highest, double known, std::size_t protocols)
+    : highest_(highest), known_(known), parts_(kHistoryParts), known_errors_(protocols) {}
 
 std::size_t HistoryErrors::bin(const Reading& reading) const {
   const double at = reading.answer / highest_ * static_cast<double>(kBins);
@@ -46,7 +48,13 @@ void HistoryErrors::add(const Reading& reading) {
     sum.square += error * error;
     ++sum.errors[own][place];
   }
-  if (reading.open <= known_) ++parts_.back().errors[own][place];
+  if (reading.open <= known_) ++known_errors_[reading.protocol][own][place];
+}
+
+void HistoryErrors::addCounts(const Counts& other, Counts& counts) {
+  for (std::size_t b = 0; b < counts.size(); ++b) {
+    for (std::size_t l = 0; l < kLevels; ++l) counts[b][l] += other[b][l];
+  }
 }
 
 void HistoryErrors::merge(const HistoryErrors& other) {
@@ -54,21 +62,25 @@ void HistoryErrors::merge(const HistoryErrors& other) {
     parts_[p].readings += other.parts_[p].readings;
     parts_[p].static_square += other.parts_[p].static_square;
     parts_[p].square += other.parts_[p].square;
-    for (std::size_t b = 0; b < 2 * kBins; ++b) {
-      for (std::size_t l = 0; l < kLevels; ++l) parts_[p].errors[b][l] += other.parts_[p].errors[b][l];
-    }
+    addCounts(other.parts_[p].errors, parts_[p].errors);
   }
+  for (std::size_t g = 0; g < known_errors_.size(); ++g) addCounts(other.known_errors_[g], known_errors_[g]);
 }
 
 // NaN for a bin without readings.
 double HistoryErrors::quantile(std::size_t bin) const {
-  const auto& errors = parts_.back().errors[bin];
-  std::uint64_t all = 0, below = 0;
-  for (const std::uint64_t count : errors) all += count;
-  if (all == 0) return std::numeric_limits<double>::quiet_NaN();
+  std::array<double, kLevels> shares = {};  // summed over protocols
+  double protocols = 0, below = 0;
+  for (const Counts& errors : known_errors_) {
+    const double all = std::accumulate(errors[bin].begin(), errors[bin].end(), 0.0);
+    if (all == 0) continue;
+    protocols += 1;
+    for (std::size_t l = 0; l < kLevels; ++l) shares[l] += static_cast<double>(errors[bin][l]) / all;
+  }
+  if (protocols == 0) return std::numeric_limits<double>::quiet_NaN();
   for (std::size_t l = 0; l < kLevels; ++l) {
-    below += errors[l];
-    if (static_cast<double>(below) >= kWithin * static_cast<double>(all)) return level(l);
+    below += shares[l];
+    if (below >= kWithin * protocols) return level(l);
   }
   return level(kLevels - 1);
 }
@@ -194,10 +206,8 @@ void HistoryFolds::addRows(std::size_t taxel, const Answers& answers, std::size_
   sums.finish();
 }
 
-// Taxels are added in their order, so that the result does not depend on the number of threads. A few of them
-// are in memory at one time.
+// Taxels are added in their order, so that the result does not depend on the number of threads.
 std::vector<LeftOutSums> HistoryFolds::leaveOneOut() const {
-  constexpr std::size_t kTogether = 16;
   std::vector<LeftOutSums> all(count(), LeftOutSums(grid_.features()));
   const std::size_t taxels = calibration_.no_model.size();
   for (std::size_t first = 0; first < taxels; first += kTogether) {
@@ -274,7 +284,7 @@ void HistoryFolds::addErrors(std::size_t taxel, const Answers& answers, std::siz
                   }
                   left_out.push_back({x, x + change, stream.recording().pressure[scan.number], unknown,
                                       state[first_operator] > x, stream.sections().direction[scan.number],
-                                      scan.since_reversal});
+                                      scan.since_reversal, protocol});
                 });
   range.finish();
   for (HistoryErrors::Reading& reading : left_out) {
@@ -304,17 +314,21 @@ HistoryErrors HistoryFolds::errors(const HistoryModel& model,
                                    const std::vector<Eigen::VectorXd>& coefficients,
                                    const std::vector<double>& spreads, double known) const {
   const std::size_t first = firstOperator(model);
-  const HistoryErrors none(protocols_.highest, known);
-  std::vector<HistoryErrors> each(calibration_.no_model.size(), none);
+  const HistoryErrors none(protocols_.highest, known, count());
   std::vector<OpenDeviation> open;
   for (const Eigen::VectorXd& own : coefficients) open.push_back(openDeviation(own, spreads));
-  forEachModelledTaxel([&](std::size_t taxel) {
-    const std::vector<Answers> answers = answersWithoutEach(taxel);
-    for (std::size_t g = 0; g < count(); ++g)
-      addErrors(taxel, answers[g], g, first, coefficients[g], open[g], each[taxel]);
-  });
   HistoryErrors all = none;
-  for (const HistoryErrors& own : each) all.merge(own);
+  const std::size_t taxels = calibration_.no_model.size();
+  for (std::size_t begin = 0; begin < taxels; begin += kTogether) {
+    std::vector<HistoryErrors> each(std::min(kTogether, taxels - begin), none);
+    matrix::forEachTaxel(each.size(), threads_, [&](std::size_t t) {
+      if (calibration_.no_model[begin + t] != 0) return;
+      const std::vector<Answers> answers = answersWithoutEach(begin + t);
+      for (std::size_t g = 0; g < count(); ++g)
+        addErrors(begin + t, answers[g], g, first, coefficients[g], open[g], each[t]);
+    });
+    for (const HistoryErrors& own : each) all.merge(own);
+  }
   return all;
 }
 

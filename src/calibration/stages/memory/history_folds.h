@@ -18,8 +18,8 @@ namespace fsr::calibration {
 class HistoryErrors {
  public:
   /// `highest`: largest pressure of the bags [Pa]. `known`: a reading whose open deviation is not larger
-  /// counts for the deviations of the model [Pa].
-  HistoryErrors(double highest, double known);
+  /// counts for the deviations of the model [Pa]. `protocols`: number of those that were left out.
+  HistoryErrors(double highest, double known, std::size_t protocols);
 
   struct Reading {
     double static_answer = 0;  ///< [Pa]
@@ -29,12 +29,14 @@ class HistoryErrors {
     bool unloading = false;    ///< as the model sees it, see HistoryModel
     statistics::LoadDirection direction = statistics::LoadDirection::kNone;  ///< of the chamber
     double since_reversal = 0;                                               ///< [s]
+    std::size_t protocol = 0;  ///< number of the one that was left out
   };
   void add(const Reading& reading);
   void merge(const HistoryErrors& other);
 
-  /// The deviations of a model: in each bin of its answer and each direction the absolute error that 68.27 %
-  /// of the readings do not exceed. Bins without readings take that of their neighbour.
+  /// The deviations of a model: in each bin of its answer and each direction the absolute error that, in the
+  /// mean over protocols, 68.27 % of the readings do not exceed: a new recording is of one protocol, and the
+  /// long ones of training tell no more of it. Bins without readings take that of their neighbour.
   void setDeviation(HistoryModel& model) const;
 
   /// All readings; loading and unloading; by time since the last reversal. Parts without readings are absent.
@@ -44,12 +46,14 @@ class HistoryErrors {
   static constexpr std::size_t kBins = 12;     // of the answer, in each direction
   static constexpr std::size_t kLevels = 256;  // of the absolute error, evenly spaced in its logarithm
 
+  // Readings by what the error has beyond its open deviation; loading, then unloading.
+  using Counts = std::array<std::array<std::uint64_t, kLevels>, 2 * kBins>;
   struct Sum {
     std::uint64_t readings = 0;
     double static_square = 0, square = 0;  // [Pa^2]
-    // Of what the error has beyond its open deviation; loading, then unloading.
-    std::array<std::array<std::uint64_t, kLevels>, 2 * kBins> errors = {};
+    Counts errors = {};
   };
+  static void addCounts(const Counts& other, Counts& counts);
 
   std::size_t bin(const Reading& reading) const;
   std::vector<double> deviation(std::size_t first_bin) const;
@@ -57,7 +61,8 @@ class HistoryErrors {
   double level(std::size_t number) const;
 
   double highest_, known_;
-  std::vector<Sum> parts_;  // the last one: those that count for the deviations
+  std::vector<Sum> parts_;
+  std::vector<Counts> known_errors_;  // [protocols], those that count for the deviations
 };
 
 /// The bags of a training, divided by protocol: each protocol in turn is answered by tables that were trained
