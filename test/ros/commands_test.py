@@ -64,7 +64,6 @@ NOT_RUN = {
     "scripts/prove_effects": "computes for hours",
     "scripts/score_cases": "scores what blind trials made in hours; test/blind",
     "scripts/run_shards": "computes for hours; test/scripts/run_shards_test.py",
-    "rosrun fsr_pressure_map simulate --output DIR --merge": "merges shards of hours; test/scripts/run_shards_test.py",
     "rosrun fsr_pressure_map study --merge": "merges shards of minutes; test/scripts/run_shards_test.py",
     "rosrun fsr_pressure_map day_report": "needs a conducted session; ros.day",
     "rosrun image_view": "needs a screen",
