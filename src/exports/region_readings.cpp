@@ -58,7 +58,7 @@ const std::vector<RegionReading>& RegionReader::read(const ScanRecord& scan) {
 }
 
 std::string regionName(const map::RegionStatistics& region) {
-  return region.region.empty() ? "whole_matrix" : region.region;
+  return region.region.empty() ? map::kWholeMatrix : region.region;
 }
 
 }  // namespace fsr::exports

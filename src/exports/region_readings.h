@@ -39,7 +39,7 @@ class RegionReader {
   std::vector<RegionReading> readings_;
 };
 
-/// Name of a region in a table: that of the whole matrix is "whole_matrix".
+/// Name of a region in a table: that of the whole matrix is map::kWholeMatrix.
 std::string regionName(const map::RegionStatistics& region);
 
 }  // namespace fsr::exports

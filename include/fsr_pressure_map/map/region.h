@@ -24,9 +24,12 @@ struct AlarmOptions {
   bool used() const { return threshold < std::numeric_limits<double>::infinity(); }
 };
 
+/// Name of the whole matrix in tables and topics.
+constexpr char kWholeMatrix[] = "whole_matrix";
+
 /// A named part of the matrix, with its alarm.
 struct Region {
-  std::string name;  ///< "" = the whole matrix
+  std::string name;  ///< "" = the whole matrix, kWholeMatrix where no name may be empty
   std::vector<std::uint8_t>
       mask;  ///< [rows x columns], row-major, 1 = part of the region; empty = every taxel
   AlarmOptions alarm;

@@ -82,6 +82,7 @@ class ViewServer {
   ros::NodeHandle handle_;
   ViewSettings settings_;
   std::map<std::string, ros::Publisher> outputs_;
+  std::vector<ros::Publisher> regions_;  // those of outputs_ for one region each, in the order of the file
   ros::SubscriberStatusCallback follow_ = [this](const auto&) { followSubscribers(); };
   ros::Subscriber maps_;
   ros::Subscriber curvature_;
@@ -161,10 +162,9 @@ ViewServer::ViewServer(const ros::NodeHandle& handle, const ros::NodeHandle& pri
 
 // Topic of one region, with its name as far as a topic may have it.
 std::string regionTopic(const std::string& region) {
-  if (region.empty()) return "regions/whole_matrix";
-  std::string name = "regions/";
-  for (const char c : region) name += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
-  return name;
+  std::string name = region.empty() ? fsr::map::kWholeMatrix : region;
+  for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
+  return "regions/" + name;
 }
 
 // A topic for each region: programs that plot numbers find no region in an array.
@@ -174,9 +174,11 @@ void ViewServer::advertiseRegions() {
     if (!settings_.regions.empty()) names = fsr::map::regionNames(settings_.regions);
   } catch (const fsr::settings::InputError&) {  // prepare() says it
   }
-  for (const std::string& name : names)
-    outputs_[regionTopic(name)] = handle_.advertise<fsr_pressure_map::PressureStatistics>(
-        regionTopic(name), settings_.queue_size, follow_, follow_);
+  for (const std::string& name : names) {
+    regions_.push_back(handle_.advertise<fsr_pressure_map::PressureStatistics>(
+        regionTopic(name), settings_.queue_size, follow_, follow_));
+    outputs_[regionTopic(name)] = regions_.back();
+  }
 }
 
 void ViewServer::onAlarmSet() {
@@ -286,13 +288,13 @@ void ViewServer::publishStatistics(const std_msgs::Header& header,
   array.header = header;
   fsr::matrix::Layout layout;
   layout.size = size_;
-  for (const fsr::map::RegionStatistics& region : regions) {
-    array.regions.push_back(toMessage(region, layout));
-    const auto own = outputs_.find(regionTopic(region.region));
-    if (own != outputs_.end() && own->second.getNumSubscribers() > 0)
-      own->second.publish(array.regions.back());
+  const bool all = wanted("statistics");
+  for (std::size_t r = 0; r < regions.size(); ++r) {
+    const bool own = r < regions_.size() && regions_[r].getNumSubscribers() > 0;
+    if (own) regions_[r].publish(toMessage(regions[r], layout));
+    if (all) array.regions.push_back(toMessage(regions[r], layout));
   }
-  if (wanted("statistics")) outputs_["statistics"].publish(array);
+  if (all) outputs_["statistics"].publish(array);
 }
 
 void ViewServer::publishCentre(const std_msgs::Header& header, const fsr::map::RegionStatistics& whole) {
