@@ -1,8 +1,6 @@
 #include "exports/pliance_file.h"
 
-#include <array>
 #include <cmath>
-#include <ctime>
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "settings/number_text.h"
@@ -31,12 +29,8 @@ void PlianceFile::begin(const ExportSubject& subject) {
 }
 
 std::string PlianceFile::header(const ScanRecord& first) {
-  const std::time_t seconds = first.stamp_ns / 1000000000;
-  std::tm parts{};
-  gmtime_r(&seconds, &parts);
-  std::array<char, 40> date{};
-  std::strftime(date.data(), date.size(), "%d.%m.%y %H.%M", &parts);
-  std::string text = "file name: " + subject_.name + " date/time " + date.data() + kLineEnd;
+  std::string text =
+      "file name: " + subject_.name + " date/time " + dateText(first.stamp_ns, "%d.%m.%y %H.%M") + kLineEnd;
   text += "mat type " + (subject_.model.empty() ? "fsr_pressure_map" : subject_.model) + kLineEnd;
   times_at_ = text.size();
   text += std::string(kTimesRoom, ' ') + kLineEnd + "pressure values in kPa" + kLineEnd + kLineEnd + kLineEnd;
@@ -56,11 +50,7 @@ void PlianceFile::add(const ScanRecord& scan) {
       if ((scan.map->flags[i] & map::taxel_flag::kMasked) == 0) sensors_.push_back(i);
     file_.write(header(scan));
   }
-  if (scan.layout.size != layout_.size)
-    throw settings::InputError("the matrix changes from " + matrix::sizeText(layout_.size) + " to " +
-                               matrix::sizeText(scan.layout.size) +
-                               " taxels, but a file of pliance has one size; end the export before the "
-                               "change with --until");
+  requireOneSize(subject_, layout_.size, scan.layout.size, "a file of pliance has");
   std::string line = fixed(time, 5);
   for (const std::size_t taxel : sensors_) line += fixed(1e-3 * double(scan.map->pressure[taxel]), 3);
   file_.write(line + kLineEnd);

@@ -56,11 +56,7 @@ class Hdf5Rows : public RowTable {
   Hdf5Rows(const std::string& path, const std::string& name, const std::vector<TableColumn>& columns)
       : path_(path), fresh_(path) {
     attempt(path_, [&] {
-      hdf5::openLibrary();
-      file_.emplace(H5Fcreate(fresh_.name().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose,
-                    "file");
-      const hdf5::Handle group(H5Gcreate2(*file_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-                               H5Gclose, name.c_str());
+      createFile(fresh_.name(), name, file_);
       for (const TableColumn& column : columns) {
         hdf5::ColumnPlan plan;
         plan.path = name + '/' + column.name;
@@ -89,8 +85,7 @@ class Hdf5Rows : public RowTable {
     attempt(path_, [&] {
       for (const auto& column : columns_) column->finish();
       columns_.clear();
-      hdf5::require(H5Fflush(*file_, H5F_SCOPE_GLOBAL), "file");
-      file_.reset();
+      closeFile(file_);
     });
     fresh_.finish();
   }

@@ -5,7 +5,10 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <utility>
+
+#include "fsr_pressure_map/settings/input_error.h"
 
 namespace fsr::exports {
 
@@ -28,12 +31,29 @@ std::string exactText(double value) {
   return shortest(value);
 }
 
+std::string dateText(std::int64_t stamp_ns, const char* format) {
+  const std::time_t seconds = stamp_ns / 1000000000;
+  std::tm parts{};
+  gmtime_r(&seconds, &parts);
+  std::array<char, 40> text{};
+  std::strftime(text.data(), text.size(), format, &parts);
+  return text.data();
+}
+
 std::string secondsText(std::int64_t nanoseconds) {
   constexpr std::int64_t kSecond = 1000000000;
   std::array<char, 40> text{};
   std::snprintf(text.data(), text.size(), "%s%lld.%09lld", nanoseconds < 0 ? "-" : "",
                 std::llabs(nanoseconds / kSecond), std::llabs(nanoseconds % kSecond));
   return text.data();
+}
+
+void requireOneSize(const ExportSubject& subject, matrix::MatrixSize first, matrix::MatrixSize now,
+                    const std::string& holds) {
+  if (now == first) return;
+  throw settings::InputError(subject.name + ": the matrix changes from " + matrix::sizeText(first) + " to " +
+                             matrix::sizeText(now) + " taxels, but " + holds +
+                             " one size; end the export before the change with --until");
 }
 
 std::string flagWords(std::uint16_t flags) {

@@ -17,6 +17,9 @@ namespace fsr::exports {
 std::string exactText(float value);
 std::string exactText(double value);
 
+/// Date and time of a stamp in UTC, in a format of strftime().
+std::string dateText(std::int64_t stamp_ns, const char* format);
+
 /// Nanoseconds as seconds with nine decimals, exactly: "12.345678900".
 std::string secondsText(std::int64_t nanoseconds);
 
@@ -50,6 +53,10 @@ struct ExportSubject {
   double trained_low = ScanRecord::kUnknown;   ///< lowest gauge pressure of the training [Pa]
   double trained_high = ScanRecord::kUnknown;  ///< highest gauge pressure of the training [Pa]
 };
+
+/// Throws InputError where a scan has another size than the first. `holds`: "datasets have", "a file has" ...
+void requireOneSize(const ExportSubject& subject, matrix::MatrixSize first, matrix::MatrixSize now,
+                    const std::string& holds);
 
 /// Writes the scans of recordings, in the order of their stamps. Each function throws InputError if the
 /// output cannot be written. Without finish() no output remains.

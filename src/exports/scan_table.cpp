@@ -36,11 +36,8 @@ void ScanTable::lay(const char* name, hid_t type, const char* unit, const char* 
 }
 
 void ScanTable::open(const ScanRecord& first) {
-  hdf5::openLibrary();
   size_ = first.layout.size;
-  file_.emplace(H5Fcreate(fresh_.name().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose, "file");
-  const hdf5::Handle group(H5Gcreate2(*file_, kGroup, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose,
-                           kGroup);
+  createFile(fresh_.name(), kGroup, file_);
   lay("stamp", H5T_NATIVE_INT64, "ns", "time of the scan, since 1970, UTC");
   lay("time", H5T_NATIVE_DOUBLE, "s", "since the first scan");
   lay("sequence", H5T_NATIVE_INT64, "", "scan counter of the board; a gap means lost scans; -1 = unknown");
@@ -102,12 +99,7 @@ void ScanTable::putTaxels(const ScanRecord& scan) {
 
 void ScanTable::add(const ScanRecord& scan) {
   if (!file_) attempt(path_, [&] { open(scan); });
-  if (scan.layout.size != size_) {
-    throw settings::InputError(
-        subject_.name + ": the matrix changes from " + matrix::sizeText(size_) + " to " +
-        matrix::sizeText(scan.layout.size) +
-        " taxels, but datasets have one size; end the export before the change with --until");
-  }
+  requireOneSize(subject_, size_, scan.layout.size, "datasets have");
   attempt(path_, [&] {
     put("stamp", scan.stamp_ns);
     put("time", 1e-9 * static_cast<double>(scan.since_ns));
@@ -137,8 +129,7 @@ void ScanTable::finish() {
       names.finish();
     }
     columns_.clear();
-    hdf5::require(H5Fflush(*file_, H5F_SCOPE_GLOBAL), "file");
-    file_.reset();
+    closeFile(file_);
   });
   fresh_.finish();
 }

@@ -8,7 +8,7 @@
 
 namespace fsr::exports {
 
-/// A table with one row for each region and scan. docs/exports.md describes the columns.
+/// A table with one row for each region and scan. HDF5 holds units and meanings of the columns.
 class StatisticsTable : public ScanSink {
  public:
   StatisticsTable(const std::string& path, const StatisticsOptions& options);

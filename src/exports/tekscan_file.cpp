@@ -1,8 +1,6 @@
 #include "exports/scan_formats.h"
 
-#include <array>
 #include <cmath>
-#include <ctime>
 
 #include "exports/scan_record.h"
 #include "fsr_pressure_map/settings/input_error.h"
@@ -24,12 +22,7 @@ std::string padded(std::string text) {
 
 // Month/day/year and time of day with milliseconds, UTC.
 std::string date(std::int64_t stamp_ns) {
-  const std::time_t seconds = stamp_ns / 1000000000;
-  std::tm parts{};
-  gmtime_r(&seconds, &parts);
-  std::array<char, 40> text{};
-  std::strftime(text.data(), text.size(), "%m/%d/%Y %H:%M:%S", &parts);
-  return std::string(text.data()) + secondsText(stamp_ns % 1000000000).substr(1, 4);
+  return dateText(stamp_ns, "%m/%d/%Y %H:%M:%S") + secondsText(stamp_ns % 1000000000).substr(1, 4);
 }
 
 // Pressure [kPa]. Nine digits restore each float32 of the map.
@@ -95,12 +88,7 @@ void TekscanFile::add(const ScanRecord& scan) {
     layout_ = scan.layout;
     file_.write(header(scan));
   }
-  if (scan.layout.size != layout_.size) {
-    throw settings::InputError(
-        subject_.name + ": the matrix changes from " + matrix::sizeText(layout_.size) + " to " +
-        matrix::sizeText(scan.layout.size) +
-        " taxels, but a Tekscan file has one size; end the export before the change with --until");
-  }
+  requireOneSize(subject_, layout_.size, scan.layout.size, "a Tekscan file has");
   times_.push_back(scan.since_ns);
   std::string text = "Frame " + std::to_string(times_.size()) + kEnd;
   for (std::size_t taxel = 0; taxel < layout_.size.taxels(); ++taxel) {

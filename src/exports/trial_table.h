@@ -25,8 +25,8 @@ std::vector<Step> findSteps(const std::vector<double>& force, const std::vector<
 double stepThreshold(const std::vector<double>& force);
 
 /// A table with one row for each region of a recording, step 0, and one for each step that is found in the
-/// force on the whole matrix. docs/exports.md describes the columns. Memory grows by 56 bytes for each region
-/// and scan.
+/// force on the whole matrix. HDF5 holds units and meanings of the columns. Memory grows by 56 bytes for each
+/// region and scan.
 class TrialTable : public ScanSink {
  public:
   TrialTable(const std::string& path, const StatisticsOptions& options);
