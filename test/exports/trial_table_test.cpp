@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <sstream>
@@ -54,6 +55,17 @@ TEST(Steps, AreNotMadeByNoiseAtTheThresholdOrByAForceThatRests) {
   const std::vector<double> rests(500, 0.0);
   EXPECT_TRUE(findSteps(rests, times(500, 50), stepThreshold(rests)).empty());
   EXPECT_TRUE(findSteps({kNone, kNone}, {0, 1}, stepThreshold({kNone, kNone})).empty());
+}
+
+// At rest 0 N, threshold 10 N: a dip to 8 N is above the middle between them, one to 4 N is not.
+TEST(Steps, EndHalfWayBackToTheLowestForce) {
+  std::vector<double> force(200, 0.0);
+  std::fill(force.begin() + 20, force.begin() + 90, 100.0);
+  std::fill(force.begin() + 110, force.begin() + 180, 100.0);
+  std::fill(force.begin() + 90, force.begin() + 110, 8.0);
+  EXPECT_EQ(findSteps(force, times(200, 50), 10), (std::vector<Step>{{20, 179}}));
+  std::fill(force.begin() + 90, force.begin() + 110, 4.0);
+  EXPECT_EQ(findSteps(force, times(200, 50), 10), (std::vector<Step>{{20, 89}, {110, 179}}));
 }
 
 class RegionTables : public testing::Test {
@@ -137,6 +149,10 @@ TEST_F(RegionTables, MarkWhatIsAtLeastAndKeepRegionsApart) {
   EXPECT_TRUE(test_support::holds(rows[2], {",left,50,2,0,0,"}));
   EXPECT_EQ(rows[2].substr(rows[2].size() - 7), ",0,0,OK");
   EXPECT_EQ(rows[4].substr(rows[4].size() - 7), ",0,1,OK") << "the dead taxel is in this region";
+  const std::vector<std::string> trial = lines<TrialTable>(taken, options);
+  EXPECT_TRUE(test_support::holds(trial[1], {",whole_matrix,0,", ",620,2,1,2,", ",4.8,1,"}))
+      << "one scan of two";
+  EXPECT_TRUE(test_support::holds(trial[2], {",left,0,", ",50,2,0,0,", ",1.6,0,"}));
 }
 
 // The command is that of docs/exports.md.

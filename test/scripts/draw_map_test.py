@@ -27,13 +27,17 @@ class DrawMap(unittest.TestCase):
     def test_peaks_are_drawn_with_unit_scale_and_regions(self):
         import h5py
         with h5py.File(self.folder / "scans.h5") as file:
-            highest = file["scans/pressure"][:].max()
+            pressure, flags = file["scans/pressure"][:], file["scans/flags"][:]
+        highest = pressure.max()
+        extrapolated = [flags[pressure[:, r, c].argmax(), r, c] == 8 for r in range(7) for c in range(10)]  # at the taxel's peak
+        self.assertGreater(sum(extrapolated), 0)
         picture = self.folder / "peak.svg"
         ran = self.run_script("--output", picture, "--unit", "mmHg", "--regions", ROOT / "config/regions/example.yaml")
         self.assertEqual(ran.returncode, 0, ran.stderr)
         self.assertIn(f"highest {highest / 133.322387415:.4g} mmHg at row 4, column 6;", ran.stdout)
         for text in ("pressure [mmHg]", "along a row [mm]", "patellar tendon", "fibula head", "peak pressure in 2 s"):
             self.assertTrue(text in picture.read_text(), text)
+        self.assertEqual(picture.read_text().count(">\u2265<"), sum(extrapolated))
 
     def test_one_moment_as_pdf_and_png(self):
         for name, magic in (("map.pdf", b"%PDF"), ("map.png", b"\x89PNG")):
