@@ -143,10 +143,10 @@ def screenshot(rig, picture, environment, pressure, limit):
     while not taken and time.monotonic() < give_up:
         if latest["pressure"] > pressure:
             subprocess.run(["import", "-window", "root", str(picture)], env=environment, check=True)
-            coloured = subprocess.check_output(  # share of the scene below the legend that is coloured
-                ["convert", str(picture), "-crop", "600x400+380+340", "-colorspace", "HSL", "-channel", "G", "-separate",
+            coloured = subprocess.check_output(  # share of the scene beside the legend that is coloured
+                ["convert", str(picture), "-crop", "385x660+582+70", "-colorspace", "HSL", "-channel", "G", "-separate",
                  "+channel", "-threshold", "25%", "-format", "%[fx:mean]", "info:"], text=True)
-            taken = float(coloured) > 0.1  # 0.2 to 0.3 with the sheet, 0.002 with only the axes
+            taken = float(coloured) > 0.1  # 0.2 with the sheet; the axes alone are thin lines
         else:
             time.sleep(0.01)
     subscriber.unregister()
