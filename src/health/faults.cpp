@@ -207,6 +207,7 @@ class FaultSearch {
   std::vector<FailingTaxel> failingTaxels() const;
   bool findLine(const std::vector<FaultKind>& kinds);
   void joinLines(FaultKind kind, const std::vector<FailingTaxel>& failing);
+  std::vector<TaxelSpell> taxelSpells(const Members& members) const;
   bool keep(FaultKind kind, double p, const Members& members);
   bool isSound(std::size_t taxel) const { return std::count(taxels_.begin(), taxels_.end(), taxel) > 0; }
 
@@ -489,6 +490,31 @@ void FaultSearch::joinLines(FaultKind kind, const std::vector<FailingTaxel>& fai
   }
 }
 
+// The spells of taxels. They begin and end between two scans.
+std::vector<TaxelSpell> FaultSearch::taxelSpells(const Members& members) const {
+  std::vector<TaxelSpell> all;
+  for (const auto& [taxel, spells] : members) {
+    for (std::size_t v = 0; v < courses_.size(); ++v) {
+      const Stay& stay = sheet_.stays[v];
+      const std::size_t last = stay.scans() - 1;
+      const double half = last > 0 ? (stay.time(1) - stay.time(0)) / 2 : 0;
+      const auto before = [&](std::size_t scan) {
+        if (scan > last) return stay.time(last) + half;
+        return scan == 0 ? stay.time(0) - half : (stay.time(scan - 1) + stay.time(scan)) / 2;
+      };
+      TaxelCourse course(courses_[v], taxel);
+      eachSpell(spells[v], [&, t = taxel](std::size_t from, std::size_t to) {
+        std::vector<double> readings;
+        for (std::size_t i = (from + to) / 2; i < to; ++i) readings.push_back(course.reading(i));
+        const bool goes_on = v + 1 == courses_.size() && to > last;
+        all.push_back({t, std::max(0.0, before(from)), goes_on ? INFINITY : before(to),
+                       sheet_.full_scale * statistics::upperMedian(readings, 0)});
+      });
+    }
+  }
+  return all;
+}
+
 // Computes times, share, depth and size of a fault from the spells of its taxels, and keeps it where its size
 // matters.
 bool FaultSearch::keep(FaultKind kind, double p, const Members& members) {
@@ -525,6 +551,7 @@ bool FaultSearch::keep(FaultKind kind, double p, const Members& members) {
       before = now;
     }
   }
+  if (!fault.isLine()) fault.spells = taxelSpells(members);
   for (const auto& [from, to] : fault.times) fault.longest = std::max(fault.longest, to - from);
   fault.share = hit / std::max(1.0, all);
   fault.depth = lost_of > 0 ? lost / lost_of : 0;

@@ -33,6 +33,13 @@ struct Sheet {
 
 enum class FaultKind { kStuckTaxels, kDeadTaxels, kRow, kColumn };
 
+/// A time in which a taxel fails. It ends with the stay, or goes on where the stay is the last one.
+struct TaxelSpell {
+  std::size_t taxel = 0;    ///< row-major
+  double from = 0, to = 0;  ///< since the first scan of the first recording [s]; to = INFINITY: goes on
+  double reading = 0;       ///< median of its second half [counts]
+};
+
 /// Taxels or a line that fail.
 struct Fault {
   FaultKind kind = FaultKind::kStuckTaxels;
@@ -42,6 +49,7 @@ struct Fault {
   double depth = 0;                              ///< mean relative loss of the reading
   double longest = 0;                            ///< longest spell [s]
   std::vector<std::pair<double, double>> times;  ///< start and end of each spell, since the first scan [s]
+  std::vector<TaxelSpell> spells;                ///< of each of its taxels, unless a line fails
   double p = 1;                                  ///< of its test, corrected for all taxels or lines
 
   bool isLine() const { return kind == FaultKind::kRow || kind == FaultKind::kColumn; }

@@ -74,7 +74,7 @@ SensorChain::SensorChain(const SimulationSettings& settings)
     const EnabledEffect* enabled = settings.effect(entry.info.id);
     if (!enabled || entry.info.stage == ChainStage::kReference) continue;
     links_.push_back({enabled->id, entry.info.stage,
-                      entry.make(enabled->values, {settings.layout, settings.seed}),
+                      entry.make(enabled->values, {settings.layout, settings.seed, enabled->spells}),
                       actingOn(*enabled, layout_.size.taxels()), enabled->only_surfaces,
                       entry.info.required && entry.info.stage == ChainStage::kConductance});
   }

@@ -94,6 +94,12 @@ std::string text(const EnabledEffect& effect, const EffectInfo& info, const Valu
     surfaces += (surfaces.empty() ? "" : ", ") + settings::quotedText(surface);
   if (!taxels.empty()) result += "    only_taxels: [" + taxels + "]\n";
   if (!surfaces.empty()) result += "    only_surfaces: [" + surfaces + "]\n";
+  for (const FaultSpell& spell : effect.spells) {
+    result += (&spell == &effect.spells.front() ? "    spells: [" : ",\n             ") +
+              std::to_string(spell.taxel) + ", " + settings::numberText(spell.from) + ", " +
+              settings::numberText(spell.to) + ", " + settings::numberText(spell.reading);
+  }
+  if (!effect.spells.empty()) result += "]  # taxel, from, to [s], reading [counts]\n";
   return result;
 }
 

@@ -85,6 +85,24 @@ EffectValues readValues(const settings::Settings& settings, const EffectInfo& in
   return values;
 }
 
+std::vector<FaultSpell> readSpells(const settings::Settings& settings, const EffectInfo& info,
+                                   matrix::MatrixSize size) {
+  const std::vector<double> numbers = settings.numbers("spells", {-1, kForever, ""});
+  if (info.level != EffectLevel::kTaxel || info.kind != EffectKind::kDetector)
+    throw settings.error("spells", "only dead_taxel and stuck_taxel have spells");
+  std::vector<FaultSpell> spells;
+  for (std::size_t i = 0; i + 3 < numbers.size(); i += 4)
+    spells.push_back({static_cast<std::size_t>(numbers[i]), numbers[i + 1], numbers[i + 2], numbers[i + 3]});
+  const bool sound =
+      numbers.size() % 4 == 0 && std::all_of(spells.begin(), spells.end(), [&](const FaultSpell& s) {
+        return s.taxel < size.taxels() && s.from <= s.to;
+      });
+  if (!sound)
+    throw settings.error("spells",
+                         "must be four numbers for each spell: taxel, from, to [s], reading [counts]");
+  return spells;
+}
+
 EnabledEffect readEffect(const settings::Settings& settings, const EffectInfo& info,
                          matrix::MatrixSize size) {
   EnabledEffect effect{info.id, readValues(settings, info)};
@@ -93,6 +111,7 @@ EnabledEffect readEffect(const settings::Settings& settings, const EffectInfo& i
     for (const double taxel : settings.numbers("only_taxels", {0, last, ""}))
       effect.only_taxels.push_back(static_cast<std::size_t>(taxel));
   }
+  if (settings.has("spells")) effect.spells = readSpells(settings, info, size);
   if (settings.has("only_surfaces")) effect.only_surfaces = settings.texts("only_surfaces");
   return effect;
 }

@@ -101,6 +101,11 @@ TEST(Investigate, FindsFaultsByTestsOfTheirOwn) {
   ASSERT_EQ(stuck.verdict, Verdict::kNamed) << stuck.sentence;
   EXPECT_EQ(stuck.effects.at(0).id, "stuck_taxel");
   EXPECT_EQ(stuck.where.taxels, std::vector<std::size_t>{2});
+  // As written, the simulation fails where and when the sheet did.
+  const DiscrepancyReport two =
+      investigate(planted(kTwoSpeeds, "  stuck_taxel: {spells: [2, 1200, 1e9, -1, 9, 1500, 1e9, -1]}\n"));
+  EXPECT_EQ(two.where.taxels, (std::vector<std::size_t>{2, 9}));
+  for (const DiscrepancyReport* fault : {&dead, &stuck, &two}) EXPECT_GT(fault->gap.closed, 0.9);
   const DiscrepancyReport row =
       investigate(planted(kTwoSpeeds, "  row_fault: {share: 0.04, line: 1, burst: 3, depth: 0.7}\n"));
   ASSERT_EQ(row.verdict, Verdict::kNamed) << row.sentence;

@@ -51,17 +51,27 @@ TEST(ConfinedEffect, EverywhereIsAsIfNothingWereSaid) {
 }
 
 TEST(ConfinedEffect, SurvivesSavingAndLoading) {
-  const SimulationSettings written =
-      settings("  hysteresis: {only_taxels: [1, 5], only_surfaces: [cylinder_5cm, \"a, b\"]}\n");
+  const SimulationSettings written = settings(
+      "  hysteresis: {only_taxels: [1, 5], only_surfaces: [cylinder_5cm, \"a, b\"]}\n"
+      "  stuck_taxel: {spells: [1, 2.5, 3, -1, 5, 7, 1e9, 400]}\n");
   const SimulationSettings read =
       readSimulation(settings::Settings::fromText(simulationText(written), "written.yaml"));
   EXPECT_EQ(read.effect("hysteresis")->only_taxels, (std::vector<std::size_t>{1, 5}));
   EXPECT_EQ(read.effect("hysteresis")->only_surfaces, (std::vector<std::string>{"cylinder_5cm", "a, b"}));
+  const std::vector<FaultSpell>& spells = read.effect("stuck_taxel")->spells;
+  ASSERT_EQ(spells.size(), 2u);
+  EXPECT_EQ(std::make_tuple(spells[0].taxel, spells[0].from, spells[0].to, spells[0].reading),
+            std::make_tuple(1u, 2.5, 3.0, -1.0));
+  EXPECT_EQ(std::make_tuple(spells[1].taxel, spells[1].to, spells[1].reading),
+            std::make_tuple(5u, kForever, 400.0));
 }
 
 TEST(ConfinedEffect, RefusesTaxelsThatAreNotThere) {
   EXPECT_THROW(settings("  creep: {only_taxels: [6]}\n"), settings::InputError);
   EXPECT_THROW(settings("  creep: {only_surfaces: flat}\n"), settings::InputError);
+  for (const char* spells : {"stuck_taxel: {spells: [6, 0, 1, 0]}", "dead_taxel: {spells: [1, 2, 1, 0]}",
+                             "dead_taxel: {spells: [1, 0, 1]}", "creep: {spells: [1, 0, 1, 0]}"})
+    EXPECT_THROW(settings(std::string("  ") + spells + "\n"), settings::InputError) << spells;
 }
 
 }  // namespace

@@ -296,6 +296,24 @@ TEST(StuckTaxel, ReadsAlwaysTheSame) {
   EXPECT_EQ(scanAt(later, 62e3, 6)[2], 30000);
 }
 
+// Taxel 2 fails twice, taxel 0 from 5 s on.
+TEST(Faults, HaveSpellsOfSingleTaxels) {
+  SensorChain dead(straightRig("  dead_taxel: {spells: [2, 1, 2, 0, 2, 4, 6, 0, 0, 5, 1e9, 0]}\n", 1, 4));
+  std::string silent;
+  for (int time = 0; time < 8; ++time) {
+    const auto counts = scanAt(dead, 310e3, time);
+    for (std::size_t t = 0; t < counts.size(); ++t) silent += counts[t] == 0 ? std::to_string(t) : "";
+    silent += '|';
+  }
+  EXPECT_EQ(silent, "|2|2||2|02|02|0|");
+  SensorChain stuck(straightRig("  stuck_taxel: {spells: [2, 1, 2, 777, 1, 2, 3, -1]}\n", 1, 4));
+  EXPECT_EQ(scanAt(stuck, 62e3, 0)[2], 6000);
+  EXPECT_EQ(scanAt(stuck, 62e3, 1)[2], 777);
+  EXPECT_EQ(scanAt(stuck, 310e3, 2)[1], 30000);
+  EXPECT_EQ(scanAt(stuck, 62e3, 3)[1], 30000);
+  EXPECT_EQ(scanAt(stuck, 62e3, 4)[1], 6000);
+}
+
 TEST(Faults, OfTaxelsThatTheMatrixDoesNotHaveAreRefused) {
   for (const char* effect : {"dead_taxel: {first: 4}", "dead_taxel: {taxels: 5}",
                              "stuck_taxel: {taxels: 1.5}", "row_fault: {line: 1}"}) {

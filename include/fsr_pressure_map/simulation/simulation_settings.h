@@ -43,12 +43,22 @@ struct SimulatedBoard {
 /// as the name of the file.
 void validate(const SimulatedBoard& board, const std::string& origin);
 
+constexpr double kForever = 1e9;  ///< an end that no recording reaches [s]
+
+/// A time in which a taxel fails.
+struct FaultSpell {
+  std::size_t taxel = 0;    ///< row-major
+  double from = 0, to = 0;  ///< rig time [s]
+  double reading = 0;       ///< of a stuck taxel [counts]; -1 = what it was when the fault began
+};
+
 /// An effect that is enabled, with all its parameters.
 struct EnabledEffect {
   std::string id;
   EffectValues values;
   std::vector<std::size_t> only_taxels{};    ///< on which it acts, row-major; empty = all
   std::vector<std::string> only_surfaces{};  ///< by name; empty = all
+  std::vector<FaultSpell> spells{};          ///< of dead_taxel and stuck_taxel, in place of their parameters
 };
 
 /// One mount of the matrix and the program of the chamber during it. It becomes one bag.

@@ -316,6 +316,9 @@ simulation::EnabledEffect asEffect(const health::Fault& fault) {
   double seconds = 0;
   for (const auto& [from, to] : fault.times) seconds += to - from;
   set("burst", seconds / static_cast<double>(fault.times.size()));
+  for (const health::TaxelSpell& spell : fault.spells)
+    effect.spells.push_back(
+        {spell.taxel, spell.from, std::min(spell.to, simulation::kForever), spell.reading});
   return effect;
 }
 

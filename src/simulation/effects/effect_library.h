@@ -16,6 +16,7 @@ namespace fsr::simulation {
 struct EffectContext {
   matrix::Layout layout;
   std::uint64_t seed = 0;  ///< of the whole simulation; see randomStream()
+  std::vector<FaultSpell> spells = {};
 };
 
 /// Gauge pressure of the chamber [Pa] at any rig time [s].

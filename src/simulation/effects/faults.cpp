@@ -71,6 +71,20 @@ std::vector<std::size_t> faultyTaxels(const std::string& id, const EffectValues&
   return faulty;
 }
 
+// The spells of the context; without one, those taxels from `start` on.
+std::vector<FaultSpell> faultSpells(const std::string& id, const EffectValues& values,
+                                    const EffectContext& context) {
+  std::vector<FaultSpell> spells = context.spells;
+  const std::vector<std::size_t> faulty = faultyTaxels(id, values, context);
+  for (std::size_t k = 0; k < faulty.size() && context.spells.empty(); ++k)
+    spells.push_back({faulty[k], values.at("start"), kForever, 0});
+  return spells;
+}
+
+bool isIn(const FaultSpell& spell, double time) {
+  return time >= spell.from && time <= spell.to;
+}
+
 // The parameters `share`, `line`, `burst` and `depth` of a line with a loose contact.
 std::vector<EffectParameter> looseLineParameters(const std::string& line) {
   return {
@@ -111,16 +125,16 @@ namespace {
 class DeadTaxel : public Effect {
  public:
   DeadTaxel(const EffectValues& values, const EffectContext& context)
-      : start_(values.at("start")), dead_(faultyTaxels("dead_taxel", values, context)) {}
+      : spells_(faultSpells("dead_taxel", values, context)) {}
 
   void apply(const RigSample& sample, TaxelSignals& signals) override {
-    if (sample.time < start_) return;
-    for (const std::size_t taxel : dead_) signals.conductance[taxel] = 0;
+    for (const FaultSpell& spell : spells_) {
+      if (isIn(spell, sample.time)) signals.conductance[spell.taxel] = 0;
+    }
   }
 
  private:
-  double start_;  // [s]
-  std::vector<std::size_t> dead_;
+  std::vector<FaultSpell> spells_;
 };
 
 }  // namespace
@@ -153,26 +167,26 @@ namespace {
 class StuckTaxel : public Effect {
  public:
   StuckTaxel(const EffectValues& values, const EffectContext& context)
-      : start_(values.at("start")),
-        value_(values.at("value")),
-        stuck_(faultyTaxels("stuck_taxel", values, context)) {
-    state_.assign(1 + stuck_.size(), 0.0);  // whether the fault has begun, then the readings [counts]
+      : spells_(faultSpells("stuck_taxel", values, context)) {
+    for (FaultSpell& spell : spells_)
+      if (context.spells.empty()) spell.reading = values.at("value");
+    state_.assign(2 * spells_.size(), 0.0);  // of each spell: whether it has begun, and its reading [counts]
   }
 
   void apply(const RigSample& sample, TaxelSignals& signals) override {
-    if (sample.time < start_) return;
-    for (std::size_t k = 0; k < stuck_.size(); ++k) {
-      double& reading = signals.reading[stuck_[k]];
-      if (state_[0] == 0) state_[k + 1] = value_ < 0 ? reading : value_;
-      reading = state_[k + 1];
+    for (std::size_t k = 0; k < spells_.size(); ++k) {
+      const FaultSpell& spell = spells_[k];
+      if (!isIn(spell, sample.time)) continue;
+      double& reading = signals.reading[spell.taxel];
+      double *begun = &state_[2 * k], *kept = begun + 1;
+      if (*begun == 0) *kept = spell.reading < 0 ? reading : spell.reading;
+      *begun = 1;
+      reading = *kept;
     }
-    state_[0] = 1;
   }
 
  private:
-  double start_;  // [s]
-  double value_;  // [counts]
-  std::vector<std::size_t> stuck_;
+  std::vector<FaultSpell> spells_;
 };
 
 }  // namespace
