@@ -14,7 +14,7 @@ namespace {
 
 using calibration::Calibration;
 using dataset::Recording;
-using settings::fixedKilopascals;
+using settings::fixedPressure;
 using settings::roundedText;
 
 constexpr double kTareGain = 0.02;  // share of the error, from which on a tare is worth a sentence
@@ -29,16 +29,16 @@ std::string whyNot(const CorrectionChoice& choice, const CheckOptions& options) 
            roundedText(choice.p, 2) + ", needed: " + roundedText(options.error_rate, 2) + ")";
   }
   if (!(before > options.worth * choice.nested)) {
-    return "a correction would lower the error from " + fixedKilopascals(before, 1) + " to " +
-           fixedKilopascals(choice.nested, 1) + " only, less than " + settings::fixedText(options.worth, 1) +
+    return "a correction would lower the error from " + fixedPressure(before, 1) + " to " +
+           fixedPressure(choice.nested, 1) + " only, less than " + settings::fixedText(options.worth, 1) +
            " times";
   }
   return "";
 }
 
 std::string mayBeMounts(const CommonChange& change, const CheckOptions& options) {
-  return fixedKilopascals(change.size, 1) + ", may be the mounts alone: they scatter by " +
-         fixedKilopascals(change.scatter.deviation, 1) + " (p = " + roundedText(change.p, 3) +
+  return fixedPressure(change.size, 1) + ", may be the mounts alone: they scatter by " +
+         fixedPressure(change.scatter.deviation, 1) + " (p = " + roundedText(change.p, 3) +
          ", needed: below " + roundedText(options.mount_error_rate, 2) + ")";
 }
 
@@ -50,11 +50,11 @@ std::string undecided(const CorrectionCheck& correction, const CheckOptions& opt
            "; record more new mounts and give all the bags";
   }
   const CorrectionChoice& choice = correction.choice;
-  const std::string before = fixedKilopascals(choice.rmse[0], 1);
+  const std::string before = fixedPressure(choice.rmse[0], 1);
   return (choice.model == ChangeModel::kNone
-              ? "the error is " + before + ", expected: " + fixedKilopascals(choice.expected, 1)
+              ? "the error is " + before + ", expected: " + fixedPressure(choice.expected, 1)
               : "a correction would lower the error from " + before + " to " +
-                    fixedKilopascals(choice.nested, 1)) +
+                    fixedPressure(choice.nested, 1)) +
          ", but one new mount cannot be told from a change of the sheet, because the training had one mount "
          "of each surface, too; record two more new mounts with mount numbers of their own and give all the "
          "bags, or say that the sheet was not taken out since the training (--same-mount, same_mount:=true)";
@@ -117,7 +117,7 @@ class CorrectionDecision {
     describeChild(result_.child->correction);
     result_.verdict = Verdict::kCorrected;
     result_.reasons = {"on cycles that were left out, the correction lowers the error from " +
-                       fixedKilopascals(choice.rmse[0], 1) + " to " + fixedKilopascals(choice.nested, 1) +
+                       fixedPressure(choice.rmse[0], 1) + " to " + fixedPressure(choice.nested, 1) +
                        " (p = " + roundedText(choice.p, 2) + ")"};
     result_.map = errorsOfMap(*result_.child, recordings_, options_.limits);
   }
@@ -152,9 +152,9 @@ class CorrectionDecision {
     // The deviations of a child have grown with its error, so it is compared with those of the parent.
     if (held_out > options_.limits.rmse_ratio * choice.expected) {
       faults.insert(faults.begin(), "the error on cycles that were left out is " +
-                                        fixedKilopascals(held_out, 1) + ", more than " +
+                                        fixedPressure(held_out, 1) + ", more than " +
                                         settings::fixedText(options_.limits.rmse_ratio, 1) +
-                                        " times the expected " + fixedKilopascals(choice.expected, 1));
+                                        " times the expected " + fixedPressure(choice.expected, 1));
     }
     return faults;
   }
@@ -226,7 +226,7 @@ void adviseTare(const Calibration& calibration, const std::vector<Recording>& re
   if (!(gain >= kTareGain)) return;
   const std::string advice = "one tare takes " + settings::percentText(gain) + " off (from " +
                              settings::fixedText(before / 1000, 1) + " to " +
-                             fixedKilopascals(map.whole.rmse, 1) + ")";
+                             fixedPressure(map.whole.rmse, 1) + ")";
   if (!map.faults.empty()) {
     remarks.push_back(advice + ", which is not enough");
     return;

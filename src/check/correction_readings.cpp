@@ -125,7 +125,7 @@ class Gathering {
   CycleReadings result() {
     if (result_.cycles() < kLeastCycles) {
       throw settings::InputError("a recheck needs at least " + std::to_string(kLeastCycles) +
-                                 " cycles that span " + settings::fixedKilopascals(least_, 0) +
+                                 " cycles that span " + settings::fixedPressure(least_, 0) +
                                  ", three quarters of the trained range, but the bags have " +
                                  std::to_string(result_.cycles()) + "; record more cycles on one surface");
     }

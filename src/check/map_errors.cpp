@@ -249,7 +249,7 @@ class Checker {
     errors.remarks.push_back(
         "each session is checked with a tare at its start, as the calibration expects; without it the RMSE "
         "is " +
-        settings::fixedKilopascals(errors.rmse_without_tare, 1));
+        settings::fixedPressure(errors.rmse_without_tare, 1));
     errors.not_tared.assign(not_tared_.begin(), not_tared_.end());
     errors.remarks.insert(errors.remarks.end(), not_tared_.begin(), not_tared_.end());
   }
@@ -287,12 +287,12 @@ void judge(const CheckedReadings& checked, double range, const MapLimits& limits
   }
   if (checked.rmse > limits.rmse_ratio * checked.expected_rmse) {
     faults.push_back(where + "errors are " + settings::fixedText(checked.rmse / checked.expected_rmse, 2) +
-                     " times the expected ones (RMSE " + settings::fixedKilopascals(checked.rmse, 1) +
-                     ", expected " + settings::fixedKilopascals(checked.expected_rmse, 1) +
+                     " times the expected ones (RMSE " + settings::fixedPressure(checked.rmse, 1) +
+                     ", expected " + settings::fixedPressure(checked.expected_rmse, 1) +
                      "; allowed: " + settings::fixedText(limits.rmse_ratio, 2) + " times)");
   }
   if (std::abs(checked.bias) > limits.bias_share * range) {
-    faults.push_back(where + "maps are " + settings::fixedKilopascals(std::abs(checked.bias), 1) +
+    faults.push_back(where + "maps are " + settings::fixedPressure(std::abs(checked.bias), 1) +
                      (checked.bias > 0 ? " above" : " below") + " the chamber pressure on average, " +
                      settings::percentText(std::abs(checked.bias) / range) + " of the range" +
                      allowed(settings::percentText(limits.bias_share)));
@@ -319,8 +319,8 @@ std::string memoryNotShown(const Calibration& calibration, double not_settled) {
   const std::vector<HistoryScore::Part>& parts = calibration.scores.history.parts;
   if (!parts.empty()) {
     text += ", so that the RMSE that training found with it on left-out protocols (" +
-            settings::fixedKilopascals(parts.front().rmse, 1) + " instead of " +
-            settings::fixedKilopascals(parts.front().static_rmse, 1) + ") was not seen";
+            settings::fixedPressure(parts.front().rmse, 1) + " instead of " +
+            settings::fixedPressure(parts.front().static_rmse, 1) + ") was not seen";
   }
   return text + "; give a bag that begins at rest, or one with wide changes of load";
 }

@@ -72,7 +72,7 @@ void findRun(const std::vector<double>& peaks, const ConditioningOptions& option
 
 std::string cyclesText(const Conditioning& session) {
   return std::to_string(session.cycles) + (session.cycles == 1 ? " cycle to " : " cycles to ") +
-         settings::fixedKilopascals(session.peak, 0) + " seen";
+         settings::fixedPressure(session.peak, 0) + " seen";
 }
 
 std::string whatWasSeen(const Conditioning& session) {
@@ -83,7 +83,7 @@ std::string whatWasSeen(const Conditioning& session) {
   if (session.cycles > 0) return cyclesText(session) + ", fewer than four: " + kWhyItMatters;
   const ConditioningOptions usual;
   return std::string("not seen: ") + kWhyItMatters + " (four or five cycles to " +
-         settings::fixedKilopascals(usual.share_of_peak * session.later, 0) +
+         settings::fixedPressure(usual.share_of_peak * session.later, 0) +
          " before the first recording, recorded or marked with the event \"conditioning\")";
 }
 

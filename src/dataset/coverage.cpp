@@ -58,8 +58,9 @@ void judgeCells(const ConditionCoverage& coverage, double highest, std::uint64_t
       const bool few_cycles = cell.cycles < sections && coverage.cycles >= sections;
       if (cell.scans >= kThinScans && !few_cycles) continue;
       std::ostringstream sentence;
-      sentence << coverage.condition.surface << ", " << statistics::pressureBinName(bin) << " kPa "
-               << (unloading ? "unloading" : "loading") << ": ";
+      sentence << coverage.condition.surface << ", "
+               << statistics::pressureBinName(bin, settings::shownUnitSize()) << ' '
+               << settings::shownUnitName() << ' ' << (unloading ? "unloading" : "loading") << ": ";
       if (cell.scans == 0) {
         sentence << "no scan";
       } else {
@@ -80,8 +81,8 @@ void judgeSurfaces(const std::vector<ConditionCoverage>& conditions, double high
   for (const ConditionCoverage& condition : conditions) {
     if (condition.pressure_high >= kEqualPeaks * highest) continue;
     sentences.push_back(condition.condition.surface + " was loaded to " +
-                        settings::roundedKilopascals(condition.pressure_high, 6) + " only, others to " +
-                        settings::roundedKilopascals(highest, 6) +
+                        settings::roundedPressure(condition.pressure_high, 6) + " only, others to " +
+                        settings::roundedPressure(highest, 6) +
                         ": above that, readings on it and between it and its neighbours are lower limits");
   }
 }
@@ -103,7 +104,7 @@ std::vector<std::string> thinPlaces(const std::vector<ConditionCoverage>& condit
   std::stable_sort(thin.begin(), thin.end(), [](const Thin& a, const Thin& b) { return a.scans < b.scans; });
   std::vector<std::string> sentences;
   if (highest < statistics::kPressureBinEdges.back()) {
-    sentences.push_back("no surface was loaded above " + settings::roundedKilopascals(highest, 6));
+    sentences.push_back("no surface was loaded above " + settings::roundedPressure(highest, 6));
   }
   judgeSurfaces(conditions, highest, sentences);
   for (const Thin& entry : thin) sentences.push_back(entry.sentence);

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "fsr_pressure_map/map/pressure_map.h"
+#include "fsr_pressure_map/settings/pressure_unit.h"
 #include "settings/settings.h"
 
 namespace fsr::map {
@@ -14,13 +15,21 @@ namespace {
 constexpr double kMaxPressure = 10e6;  // [Pa]
 constexpr double kMaxDwell = 3600;     // [s]
 
-AlarmOptions readAlarm(const settings::Settings& owner) {
+// Of the alarms in a file.
+struct Unit {
+  double size;  // [Pa]
+  std::string name;
+};
+
+AlarmOptions readAlarm(const settings::Settings& owner, const Unit& unit) {
   AlarmOptions alarm;
   if (!owner.has("alarm")) return alarm;
   const settings::Settings settings = owner.section("alarm");
-  alarm.threshold = settings.number("threshold", {1, kMaxPressure, "Pa"});
+  alarm.threshold =
+      unit.size * settings.number("threshold", {1 / unit.size, kMaxPressure / unit.size, unit.name});
   alarm.dwell = settings.number("dwell", {0, kMaxDwell, "s"}, alarm.dwell);
-  alarm.hysteresis = settings.number("hysteresis", {0, alarm.threshold, "Pa"}, alarm.hysteresis);
+  alarm.hysteresis = unit.size * settings.number("hysteresis", {0, alarm.threshold / unit.size, unit.name},
+                                                 alarm.hysteresis / unit.size);
   return alarm;
 }
 
@@ -64,22 +73,24 @@ std::vector<std::uint8_t> picture(const settings::Settings& settings, matrix::Ma
                                    matrix::sizeText(size) + " matrix");
 }
 
-Region readRegion(const settings::Settings& settings, matrix::MatrixSize size) {
+Region readRegion(const settings::Settings& settings, matrix::MatrixSize size, const Unit& unit) {
   Region region;
   region.name = settings.text("name");
   if (region.name.empty()) throw settings.error("name", "must not be empty: that is the whole matrix");
   region.mask = settings.has("mask") ? picture(settings, size) : rectangle(settings, size);
-  region.alarm = readAlarm(settings);
+  region.alarm = readAlarm(settings, unit);
   return region;
 }
 
 std::vector<Region> readAll(const settings::Settings& settings, matrix::MatrixSize size) {
   std::vector<Region> regions(1);
-  regions.front().alarm = readAlarm(settings);
+  const std::string name = settings.choice("unit", {"Pa", "kPa", "mmHg"}, "Pa");
+  const Unit unit{name == "Pa" ? 1 : settings::pascals(settings::pressureUnitOf(name)), name};
+  regions.front().alarm = readAlarm(settings, unit);
   std::set<std::string> names;
   if (settings.has("regions")) {
     for (const settings::Settings& entry : settings.sections("regions")) {
-      regions.push_back(readRegion(entry, size));
+      regions.push_back(readRegion(entry, size, unit));
       if (!names.insert(regions.back().name).second) throw entry.error("name", "is used twice");
     }
   }

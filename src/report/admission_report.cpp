@@ -53,11 +53,10 @@ std::string healthText(const discrepancy::AdmittedRecording& row, const matrix::
   if (!health.rows.empty()) sentences.push_back("failed rows: " + numbers(health.rows));
   if (!health.columns.empty()) sentences.push_back("failed columns: " + numbers(health.columns));
   if (health.saturated_taxels > 0)
-    sentences.push_back(
-        std::to_string(health.saturated_taxels) + " taxels reach full scale" +
-        (std::isnan(health.saturated_from)
-             ? ""
-             : ", at " + settings::fixedText(health.saturated_from / 1000, 0) + " kPa or more"));
+    sentences.push_back(std::to_string(health.saturated_taxels) + " taxels reach full scale" +
+                        (std::isnan(health.saturated_from)
+                             ? ""
+                             : ", at " + settings::fixedPressure(health.saturated_from, 0) + " or more"));
   return linesOf(sentences, row.name + ": ");
 }
 
@@ -91,10 +90,9 @@ std::string restText(const std::string& name, const std::optional<check::SocketR
 
 std::string changeOfRest(const check::SocketCheck& check) {
   if (check.change.empty()) return "";
-  const std::string pressure =
-      std::isnan(check.median_pressure_change)
-          ? ""
-          : " (" + settings::fixedText(check.median_pressure_change / 1000, 1) + " kPa)";
+  const std::string pressure = std::isnan(check.median_pressure_change)
+                                   ? ""
+                                   : " (" + settings::fixedPressure(check.median_pressure_change, 1) + ")";
   return "Change of the readings at rest: median " + percent(check.median_change, 2) + " of full scale" +
          pressure + ", largest " + percent(check.change[check.worst], 2) + " at (row, column) " +
          places({check.worst}, check.layout) + "; " + std::to_string(check.changed) +

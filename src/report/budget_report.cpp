@@ -26,7 +26,7 @@ constexpr double kUneven = 0.10;
 void addRow(TextTable& table, const std::string& name, const BudgetValues& values, double factor,
             const std::string& more) {
   std::vector<std::string> cells = {name};
-  for (const double value : values) cells.push_back(inKilopascals(factor * value, 2));
+  for (const double value : values) cells.push_back(inShownUnit(factor * value, 2));
   cells.push_back(more);
   table.row(cells);
 }
@@ -54,7 +54,8 @@ std::string budgetTable(const ErrorBudget& budget) {
   }
   addRow(table, "combined, k = 1", budget.combined, 1, "");
   addRow(table, "combined, k = 2", budget.combined, 2, "");
-  return "Error budget [kPa], standard uncertainties. Lines \"inside\" are parts of the held-out error and "
+  return "Error budget [" + settings::shownUnitName() +
+         "], standard uncertainties. Lines \"inside\" are parts of the held-out error and "
          "are "
          "not added again.\n" +
          table.text();
@@ -133,9 +134,10 @@ std::string expectation(const ErrorIntervals& intervals) {
 std::string intervalTable(const ErrorIntervals& intervals, const matrix::Layout& layout) {
   if (!intervals.present()) return "";
   const std::string units = unitsOf(intervals);
-  TextTable table({"pressure of the map [kPa]", units, kLevelNames[0], "covers", kLevelNames[1], "covers"});
+  TextTable table({"pressure of the map [" + settings::shownUnitName() + "]", units, kLevelNames[0], "covers",
+                   kLevelNames[1], "covers"});
   for (std::size_t bin = 0; bin < statistics::kPressureBins; ++bin)
-    intervalRow(table, statistics::pressureBinName(bin), intervals.bins[bin]);
+    intervalRow(table, binText(bin), intervals.bins[bin]);
   intervalRow(table, "all", intervals.whole);
   const bool mounts = intervals.unit == calibration::IntervalUnit::kMounts;
   return "Intervals: pressure +- factor x deviation, of whole " + units +
@@ -155,13 +157,13 @@ std::string scaleTable(const ErrorIntervals& intervals) {
            settings::percentText(scale.whole.within_tables) + " of the readings of left-out " + units +
            " lie within it.\n";
   }
-  TextTable table({"pressure of the map [kPa]", "factor", "tables", "map"});
+  TextTable table({"pressure of the map [" + settings::shownUnitName() + "]", "factor", "tables", "map"});
   const auto row = [&](const std::string& name, const calibration::BinScale& bin, double factor) {
     table.row({name, settings::fixedText(factor, 2), settings::percentText(bin.within_tables),
                settings::percentText(bin.within_map)});
   };
   for (std::size_t bin = 0; bin < statistics::kPressureBins; ++bin)
-    row(statistics::pressureBinName(bin), scale.bins[bin], scale.bins[bin].factor);
+    row(binText(bin), scale.bins[bin], scale.bins[bin].factor);
   row("all", scale.whole, std::nan(""));
   return "Deviation of the map: that of the tables x factor, so that 68 % of the readings of new " + units +
          " lie within it. Shares: of left-out " + units + ", with the factors of the others.\n" +

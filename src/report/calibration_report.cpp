@@ -31,7 +31,7 @@ std::string nameText(const std::string& name) {
 // Headings, then one for each pressure bin.
 std::vector<std::string> withBins(std::vector<std::string> headings) {
   for (std::size_t bin = 0; bin < statistics::kPressureBins; ++bin)
-    headings.push_back(statistics::pressureBinName(bin) + " kPa");
+    headings.push_back(binText(bin) + ' ' + settings::shownUnitName());
   return headings;
 }
 
@@ -51,10 +51,10 @@ std::vector<std::string> scoreRow(const std::string& name, const calibration::Sc
   return {nameText(name),
           spread(score.r2, 4),
           spread(score.rmse_percent, 2),
-          inKilopascals(errors.rmse),
-          inKilopascals(errors.bias),
-          inKilopascals(errors.limit_low) + ".." + inKilopascals(errors.limit_high),
-          inKilopascals(errors.p95_absolute),
+          inShownUnit(errors.rmse),
+          inShownUnit(errors.bias),
+          inShownUnit(errors.limit_low) + ".." + inShownUnit(errors.limit_high),
+          inShownUnit(errors.p95_absolute),
           settings::fixedText(score.worst_rmse_percent, 2) + " (" +
               std::to_string(layout.row({score.worst_taxel})) + ", " +
               std::to_string(layout.column({score.worst_taxel})) + ")",
@@ -64,7 +64,7 @@ std::vector<std::string> scoreRow(const std::string& name, const calibration::Sc
 std::vector<std::string> binRow(const std::string& name, const calibration::Score& score) {
   std::vector<std::string> cells = {nameText(name)};
   for (const statistics::BinnedErrors::Directions& bin : score.errors.bins)
-    cells.push_back(inKilopascals(bin.loading.rmse) + "/" + inKilopascals(bin.unloading.rmse));
+    cells.push_back(inShownUnit(bin.loading.rmse) + "/" + inShownUnit(bin.unloading.rmse));
   return cells;
 }
 
@@ -90,7 +90,8 @@ std::string scoresText(const calibration::CalibrationScores& scores, const matri
   if (scores.conditions.empty()) return "Scores were not computed.\n";
   TextTable table(
       {"surface", "R2", "RMSE%", "RMSE", "bias", "95 % limits", "p95", "worst taxel", "within 1 dev"});
-  table.row({"", "", "", "kPa", "kPa", "kPa", "kPa", "% (row, col.)"});
+  const std::string unit = settings::shownUnitName();
+  table.row({"", "", "", unit, unit, unit, unit, "% (row, col.)"});
   TextTable bins(withBins({"surface"}));
   bool untrained = false;
   forEachRow(scores, [&](const std::string& name, const calibration::Score& score) {
@@ -101,22 +102,23 @@ std::string scoresText(const calibration::CalibrationScores& scores, const matri
   const std::string remount =
       scores.remount.readings > 0
           ? "Another mount (each mount left out in turn; part of the stated deviation): RMSE " +
-                inKilopascals(scores.remount.rmse) + " kPa, " + spread(scores.remount.rmse_percent, 2) +
-                " %\n"
+                settings::fixedPressure(scores.remount.rmse, 1) + ", " +
+                spread(scores.remount.rmse_percent, 2) + " %\n"
           : "Another mount: not assessed, because no surface was mounted more than once. Errors after "
             "putting "
             "the matrix on again\nare larger than those above and than the stated deviation. Record each "
             "surface on two mounts or more.\n";
   return "Held-out readings, predicted without their section; R2 and RMSE%: mean +- standard deviation over "
          "taxels\n" +
-         table.text() + "RMSE [kPa] during loading/unloading\n" + bins.text() + unseenText(scores.unseen) +
-         remount + (untrained ? "* the model used for this surface was not trained on it\n" : "");
+         table.text() + "RMSE [" + unit + "] during loading/unloading\n" + bins.text() +
+         unseenText(scores.unseen) + remount +
+         (untrained ? "* the model used for this surface was not trained on it\n" : "");
 }
 
 std::string unseenText(const calibration::UnseenScore& score) {
   if (score.readings == 0) return "";
   return "Curvature not used for training (each inner surface left out in turn): RMSE " +
-         inKilopascals(score.rmse) + " kPa, " + spread(score.rmse_percent, 2) + " %\n";
+         settings::fixedPressure(score.rmse, 1) + ", " + spread(score.rmse_percent, 2) + " %\n";
 }
 
 std::string warningsText(const calibration::Calibration& calibration) {
@@ -168,14 +170,15 @@ std::string firstOf(const std::string& head, const std::vector<std::string>& sen
 std::string surfaceRows(const calibration::Calibration& calibration) {
   const std::vector<dataset::ConditionCoverage>& rows = calibration.coverage.conditions;
   const calibration::CalibrationScores& scores = calibration.scores;
+  const std::string unit = settings::shownUnitName();
   TextTable table(
-      {"Held-out readings", "scans", "cycles", "mounts", "RMSE kPa", "RMSE %", "95 % within kPa"});
+      {"Held-out readings", "scans", "cycles", "mounts", "RMSE " + unit, "RMSE %", "95 % within " + unit});
   const auto row = [&](const std::string& name, std::uint64_t scans, std::uint64_t cycles,
                        const std::string& mounts, const calibration::Score& score) {
     const statistics::ErrorSummary& errors = score.errors.whole.all;
     table.row({nameText(name), std::to_string(scans), std::to_string(cycles), mounts,
-               inKilopascals(errors.rmse), settings::fixedText(score.rmse_percent.mean, 2),
-               inKilopascals(errors.p95_absolute)});
+               inShownUnit(errors.rmse), settings::fixedText(score.rmse_percent.mean, 2),
+               inShownUnit(errors.p95_absolute)});
   };
   std::uint64_t scans = 0, cycles = 0;
   for (std::size_t k = 0; k < rows.size(); ++k) {
@@ -203,8 +206,8 @@ std::string trainingSummary(const calibration::Calibration& calibration) {
   text += learnedText(calibration);
   if (!calibration.budget.present()) return text;
   text += "Combined standard uncertainty:";
-  for (const double value : calibration.budget.combined) text += ' ' + inKilopascals(value);
-  return text + " kPa at 10, 50 and 90 % of the trained pressures\n";
+  for (const double value : calibration.budget.combined) text += ' ' + inShownUnit(value);
+  return text + ' ' + settings::shownUnitName() + " at 10, 50 and 90 % of the trained pressures\n";
 }
 
 std::string goodForText(const calibration::Calibration& calibration) {

@@ -17,7 +17,7 @@ namespace fsr::report {
 
 namespace {
 
-using settings::fixedKilopascals;
+using settings::fixedPressure;
 using settings::fixedText;
 using settings::roundedText;
 
@@ -29,9 +29,9 @@ void addRow(const check::CheckedReadings& row, std::size_t width, std::ostringst
   };
   out << std::left << std::setw(static_cast<int>(width)) << (row.name.empty() ? "all" : row.name)
       << std::right << std::setw(12) << row.readings;
-  cell(14, row.expected_rmse / 1000);
-  cell(11, row.rmse / 1000);
-  cell(11, row.bias / 1000);
+  cell(14, row.expected_rmse / settings::shownUnitSize());
+  cell(11, row.rmse / settings::shownUnitSize());
+  cell(11, row.bias / settings::shownUnitSize());
   cell(14, 100 * row.within_one_deviation);
   cell(12, 100 * row.beyond_training);
   out << '\n';
@@ -39,12 +39,13 @@ void addRow(const check::CheckedReadings& row, std::size_t width, std::ostringst
 
 void addErrors(const check::MapErrors& errors, std::ostringstream& out) {
   std::size_t width = 8;
+  const std::string unit = '[' + settings::shownUnitName() + ']';
   for (const check::CheckedReadings& row : errors.surfaces) width = std::max(width, row.name.size() + 2);
   out << std::left << std::setw(static_cast<int>(width)) << "surface" << std::right << std::setw(12)
       << "readings" << std::setw(14) << "expected" << std::setw(11) << "RMSE" << std::setw(11) << "bias"
       << std::setw(14) << "within" << std::setw(12) << "outside" << '\n'
-      << std::setw(static_cast<int>(width) + 26) << "RMSE [kPa]" << std::setw(11) << "[kPa]" << std::setw(11)
-      << "[kPa]" << std::setw(14) << "1 deviation %" << std::setw(12) << "training %" << '\n';
+      << std::setw(static_cast<int>(width) + 26) << "RMSE " + unit << std::setw(11) << unit << std::setw(11)
+      << unit << std::setw(14) << "1 deviation %" << std::setw(12) << "training %" << '\n';
   for (const check::CheckedReadings& row : errors.surfaces) addRow(row, width, out);
   addRow(errors.whole, width, out);
   out << historyTable(errors.history);
@@ -121,9 +122,9 @@ std::string spanText(const std::vector<check::ReadingChange>& changes,
 std::string mountsText(const check::MountTest& test) {
   const check::CommonChange& sheet = test.sheet;
   std::string text = std::to_string(test.mounts) + (test.mounts == 1 ? " mount has " : " mounts have ") +
-                     fixedKilopascals(sheet.size, 1) + " in common; ";
+                     fixedPressure(sheet.size, 1) + " in common; ";
   if (!sheet.scatter.known()) return text + "how much mounts scatter is not known";
-  return text + "mounts scatter by " + fixedKilopascals(sheet.scatter.deviation, 1) + " (" +
+  return text + "mounts scatter by " + fixedPressure(sheet.scatter.deviation, 1) + " (" +
          std::to_string(sheet.scatter.freedom) + " degrees of freedom), p = " + roundedText(sheet.p, 3);
 }
 
@@ -132,13 +133,13 @@ void addCorrection(const check::CorrectionCheck& correction, std::ostringstream&
   out << correction.cycles << " cycles on ";
   for (const std::string& surface : correction.surfaces)
     out << (&surface == &correction.surfaces.front() ? "" : ", ") << surface;
-  out << "; expected RMSE of the map " << fixedKilopascals(correction.expected, 1) << ", of the tables alone "
-      << fixedKilopascals(choice.expected, 1)
+  out << "; expected RMSE of the map " << fixedPressure(correction.expected, 1) << ", of the tables alone "
+      << fixedPressure(choice.expected, 1)
       << "\nRMSE of the tables alone on cycles that were left out: without correction "
-      << fixedKilopascals(choice.rmse[0], 1);
+      << fixedPressure(choice.rmse[0], 1);
   for (std::size_t m = 1; m < check::kChangeModels; ++m)
-    out << ", " << kModelNames[m] << ' ' << fixedKilopascals(choice.rmse[m], 1);
-  out << "; chosen without each cycle " << fixedKilopascals(choice.nested, 1) << " (p "
+    out << ", " << kModelNames[m] << ' ' << fixedPressure(choice.rmse[m], 1);
+  out << "; chosen without each cycle " << fixedPressure(choice.nested, 1) << " (p "
       << (choice.p < 1e-4 ? "< 0.0001" : "= " + roundedText(choice.p, 2)) << ")\n";
   if (choice.model != check::ChangeModel::kNone && !choice.changes.empty()) {
     out << "Best: " << kModelNames[static_cast<std::size_t>(choice.model)] << ", gain "
@@ -177,7 +178,7 @@ std::string goodFor(const check::CheckResult& result) {
                                       [](const auto& a, const auto& b) { return a.rmse < b.rmse; });
   const std::string bag = worst == map.bags.end()
                               ? ""
-                              : "; worst bag: " + worst->name + ", RMSE " + fixedKilopascals(worst->rmse, 1);
+                              : "; worst bag: " + worst->name + ", RMSE " + fixedPressure(worst->rmse, 1);
   return "Good for: 68 % of the readings of these bags err by at most " +
          calibration::errorText(map.within[0], map.range) + " and 95 % by at most " +
          calibration::errorText(map.within[1], map.range) + bag + "; next: " + nextStep(result) + "\n";

@@ -19,7 +19,7 @@ constexpr double kPercent = 100;
 
 // "1.3 kPa", of two digits.
 std::string pressureText(double pressure) {
-  return settings::roundedKilopascals(pressure, 2);
+  return settings::roundedPressure(pressure, 2);
 }
 
 std::string roundedPercent(double share, int digits = 2) {

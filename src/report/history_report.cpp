@@ -13,11 +13,12 @@ std::string protocolTable(const std::vector<calibration::HistoryScore::Protocol>
   TextTable table({"protocol", "static", "plays", "memories", "both", "c alone"});
   for (const auto& protocol : protocols) {
     std::vector<std::string> cells = {protocol.name};
-    for (const double rmse : protocol.rmse) cells.push_back(inKilopascals(rmse, kDecimals));
-    cells.push_back(inKilopascals(protocol.corrected_rmse, kDecimals));
+    for (const double rmse : protocol.rmse) cells.push_back(inShownUnit(rmse, kDecimals));
+    cells.push_back(inShownUnit(protocol.corrected_rmse, kDecimals));
     table.row(cells);
   }
-  return "RMSE [kPa] of means over half a second; each protocol was predicted without it\n" + table.text();
+  return "RMSE [" + settings::shownUnitName() +
+         "] of means over half a second; each protocol was predicted without it\n" + table.text();
 }
 
 }  // namespace
@@ -26,9 +27,10 @@ std::string historyTable(const std::vector<calibration::HistoryScore::Part>& par
   if (parts.empty()) return "";
   TextTable table({"readings", "static", "history", "within 1 dev", "number"});
   for (const auto& part : parts)
-    table.row({part.name, inKilopascals(part.static_rmse, kDecimals), inKilopascals(part.rmse, kDecimals),
+    table.row({part.name, inShownUnit(part.static_rmse, kDecimals), inShownUnit(part.rmse, kDecimals),
                settings::percentText(part.within_one_deviation), std::to_string(part.readings)});
-  return "RMSE [kPa] of the static answer and with the history, by part of the readings\n" + table.text();
+  return "RMSE [" + settings::shownUnitName() +
+         "] of the static answer and with the history, by part of the readings\n" + table.text();
 }
 
 std::string historyChoiceText(const calibration::HistoryScore& score) {
@@ -52,9 +54,9 @@ std::string temperatureText(const calibration::Calibration& calibration) {
   if (score.groups.empty()) return text;
   TextTable table({"left out", "without temperature", "with"});
   for (const auto& group : score.groups)
-    table.row({group.name, inKilopascals(group.without, kDecimals), inKilopascals(group.with, kDecimals)});
-  return text +
-         "RMSE of readings [kPa on a straight line up to the highest pressure]; each protocol and recording "
+    table.row({group.name, inShownUnit(group.without, kDecimals), inShownUnit(group.with, kDecimals)});
+  return text + "RMSE of readings [" + settings::shownUnitName() +
+         " on a straight line up to the highest pressure]; each protocol and recording "
          "was "
          "predicted without it\n" +
          table.text();
@@ -65,11 +67,10 @@ std::string sessionText(const calibration::SessionScore& score) {
   if (score.sessions.empty()) return score.choice + '\n';
   TextTable table({"session", "static", "tared", "trained and tared", "number"});
   for (const auto& session : score.sessions)
-    table.row({session.name, inKilopascals(session.rmse[0], kDecimals),
-               inKilopascals(session.rmse[1], kDecimals), inKilopascals(session.rmse[2], kDecimals),
-               std::to_string(session.readings)});
-  return score.choice + "\nRMSE [kPa] after the rest at the start; each session was predicted without it\n" +
-         table.text();
+    table.row({session.name, inShownUnit(session.rmse[0], kDecimals), inShownUnit(session.rmse[1], kDecimals),
+               inShownUnit(session.rmse[2], kDecimals), std::to_string(session.readings)});
+  return score.choice + "\nRMSE [" + settings::shownUnitName() +
+         "] after the rest at the start; each session was predicted without it\n" + table.text();
 }
 
 }  // namespace fsr::report

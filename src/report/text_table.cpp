@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "settings/number_text.h"
+#include "fsr_pressure_map/statistics/metrics.h"
 
 namespace fsr::report {
 
@@ -25,8 +25,8 @@ std::string TextTable::text() const {
   return text;
 }
 
-std::string inKilopascals(double pressure, int decimals) {
-  return settings::fixedText(pressure / 1e3, decimals);
+std::string binText(std::size_t bin) {
+  return statistics::pressureBinName(bin, settings::shownUnitSize());
 }
 
 std::string linesOf(const std::vector<std::string>& sentences, const std::string& head) {

@@ -4,7 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "settings/number_text.h"
+
 namespace fsr::report {
+
+using settings::inShownUnit;
 
 /// A table for the terminal, with two spaces between columns. The first column is aligned to the left, the
 /// others to the right. Each is as wide as its longest cell.
@@ -24,8 +28,8 @@ class TextTable {
   std::vector<std::vector<std::string>> rows_;
 };
 
-/// A pressure in kPa without the unit; "-" where there is none.
-std::string inKilopascals(double pressure, int decimals = 1);
+/// A pressure bin in the unit that is shown, without the unit: "50-100".
+std::string binText(std::size_t bin);
 
 /// Each sentence on a line of its own, with `head` before it.
 std::string linesOf(const std::vector<std::string>& sentences, const std::string& head);

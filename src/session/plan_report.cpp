@@ -160,7 +160,7 @@ std::string coverageText(double mounts) {
 std::string rangeText(const Contents& contents) {
   return "Curvatures below " + roundedText(contents.curvatures.front(), 3) + " and above " +
          roundedText(contents.curvatures.back(), 3) + " 1/m are extrapolated, and so are pressures above " +
-         settings::roundedKilopascals(contents.highest, 4) + ".";
+         settings::roundedPressure(contents.highest, 4) + ".";
 }
 
 // ---- effects that `discrepancy` could name alone -----------------------------------------------------
@@ -218,7 +218,7 @@ std::string conditioningText(const SessionPlan& plan) {
   if (cycles == 0) return "No conditioning.";
   const std::string text = "Conditioning before the first recording: " + std::to_string(cycles) +
                            (cycles == 1 ? " cycle to " : " cycles to ") +
-                           settings::roundedKilopascals(conditioningPeak(plan), 4) + ".";
+                           settings::roundedPressure(conditioningPeak(plan), 4) + ".";
   if (cycles >= dataset::ConditioningOptions{}.cycles) return text;
   return text + " Makers of sensors ask for four or five: check_bag and train will say \"fewer than four\".";
 }
@@ -233,7 +233,7 @@ Sentences needs(const SessionPlan& plan) {
   Sentences sentences = {
       "Surfaces: " + settings::joined(surfaces) + ".",
       "Chamber: up to " +
-          settings::roundedKilopascals(conditioned ? conditioningPeak(plan) : largestPeak(plan), 4) + ".",
+          settings::roundedPressure(conditioned ? conditioningPeak(plan) : largestPeak(plan), 4) + ".",
       plan.thermometer ? "A thermometer (topic temperature)." : "No thermometer.",
       conditioningText(plan),
       "Order: " + settings::joined(order) + ".",

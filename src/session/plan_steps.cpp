@@ -152,7 +152,7 @@ std::string countText(const SessionStep& step) {
 }
 
 std::string fillAndVent(const SessionStep& step) {
-  return countText(step) + "fill to " + settings::roundedKilopascals(step.peak, 4) + " at " +
+  return countText(step) + "fill to " + settings::roundedPressure(step.peak, 4) + " at " +
          rate(step.fill_rate) + ", hold for " + seconds(step.dwell_peak) + ", vent at " +
          rate(step.vent_rate) + ".";
 }
@@ -212,12 +212,11 @@ std::string instruction(const SessionStep& step) {
     case StepKind::kCycle:
       return "Cycle " + fillAndVent(step);
     case StepKind::kHold:
-      return "Hold " + countText(step) + "go to " + settings::roundedKilopascals(step.peak, 4) + " at " +
+      return "Hold " + countText(step) + "go to " + settings::roundedPressure(step.peak, 4) + " at " +
              rate(step.fill_rate) + " and stay for " + seconds(step.dwell_peak) + ".";
     case StepKind::kLoop:
-      return "Partial loop " + countText(step) + "from " + settings::roundedKilopascals(step.low, 4) +
-             " to " + settings::roundedKilopascals(step.peak, 4) + " and back at " + rate(step.fill_rate) +
-             ".";
+      return "Partial loop " + countText(step) + "from " + settings::roundedPressure(step.low, 4) + " to " +
+             settings::roundedPressure(step.peak, 4) + " and back at " + rate(step.fill_rate) + ".";
     case StepKind::kBreak:
       return "Break of " + roundedText(step.dwell_rest / 60, 3) + " min without load.";
     case StepKind::kDone:

@@ -17,7 +17,7 @@ void RestClock::take(const Reading& reading) {
 }
 
 std::string kPaText(double pressure) {
-  return settings::roundedKilopascals(pressure, 3);
+  return settings::roundedPressure(pressure, 3);
 }
 
 std::string secondsText(double time) {

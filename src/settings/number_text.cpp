@@ -32,12 +32,20 @@ std::string roundedText(double value, int digits) {
   return text.str();
 }
 
-std::string fixedKilopascals(double pressure, int decimals) {
-  return fixedText(pressure / 1e3, decimals) + " kPa";
+std::string fixedPressure(double pressure, int decimals) {
+  return inShownUnit(pressure, decimals) + ' ' + shownUnitName();
 }
 
-std::string roundedKilopascals(double pressure, int digits) {
-  return roundedText(pressure / 1e3, digits) + " kPa";
+std::string roundedPressure(double pressure, int digits) {
+  return roundedText(pressure / shownUnitSize(), digits) + ' ' + shownUnitName();
+}
+
+std::string inShownUnit(double pressure, int decimals) {
+  return fixedText(pressure / shownUnitSize(), decimals);
+}
+
+std::string shownUnitName() {
+  return name(shownUnit());
 }
 
 std::string megabytesText(std::uint64_t bytes) {

@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <string>
 
+#include "fsr_pressure_map/settings/pressure_unit.h"
+
 namespace fsr::settings {
 
 // Numbers in text for people. What is no finite number has the text "-", whatever the function.
@@ -23,10 +25,17 @@ std::string percentText(double share, int decimals = 1);
 /// would be long otherwise: roundedText(0.012345, 3) = "0.0123", roundedText(1e7) = "1e+07".
 std::string roundedText(double value, int digits = 6);
 
-/// A pressure [Pa] in kPa: fixedKilopascals(12345, 1) = "12.3 kPa", roundedKilopascals(12345, 4) = "12.35
+/// A pressure [Pa] in shownUnit(): fixedPressure(12345, 1) = "12.3 kPa", roundedPressure(12345, 4) = "12.35
 /// kPa".
-std::string fixedKilopascals(double pressure, int decimals);
-std::string roundedKilopascals(double pressure, int digits);
+std::string fixedPressure(double pressure, int decimals);
+std::string roundedPressure(double pressure, int digits);
+/// The number alone, and the name of its unit.
+std::string inShownUnit(double pressure, int decimals = 1);
+std::string shownUnitName();
+/// Its size [Pa].
+inline double shownUnitSize() {
+  return pascals(shownUnit());
+}
 
 /// `bytes` in megabytes of 1e6 bytes: "12.3 MB".
 std::string megabytesText(std::uint64_t bytes);

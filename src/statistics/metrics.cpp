@@ -89,10 +89,10 @@ std::size_t pressureBin(double pressure) {
   return static_cast<std::size_t>(above - kPressureBinEdges.begin()) - 1;
 }
 
-std::string pressureBinName(std::size_t bin) {
-  const auto kilopascal = [](double edge) { return std::to_string(static_cast<int>(edge / 1e3)); };
-  const std::string low = kilopascal(kPressureBinEdges.at(bin));
-  return bin + 1 == kPressureBins ? low + "+" : low + "-" + kilopascal(kPressureBinEdges[bin + 1]);
+std::string pressureBinName(std::size_t bin, double unit) {
+  const auto text = [&](double edge) { return std::to_string(std::lround(edge / unit)); };
+  const std::string low = text(kPressureBinEdges.at(bin));
+  return bin + 1 == kPressureBins ? low + "+" : low + "-" + text(kPressureBinEdges[bin + 1]);
 }
 
 }  // namespace fsr::statistics

@@ -44,40 +44,6 @@ Colour colourAt(ColourMap map, double fraction) {
   return colourAt(colourTable(map), fraction);
 }
 
-std::vector<std::string> pressureUnitNames() {
-  return {"kPa", "mmHg"};
-}
-
-PressureUnit pressureUnitOf(const std::string& name) {
-  if (name == "kPa") return PressureUnit::kKilopascal;
-  if (name == "mmHg") return PressureUnit::kMillimetreOfMercury;
-  throw settings::InputError("unit is \"" + name + "\", but must be kPa or mmHg");
-}
-
-std::string name(PressureUnit unit) {
-  switch (unit) {
-    case PressureUnit::kKilopascal:
-      return "kPa";
-    case PressureUnit::kMillimetreOfMercury:
-      return "mmHg";
-    case PressureUnit::kCount:
-      break;
-  }
-  return "counts";
-}
-
-double pascals(PressureUnit unit) {
-  switch (unit) {
-    case PressureUnit::kKilopascal:
-      return 1000;
-    case PressureUnit::kMillimetreOfMercury:
-      return 133.322387415;
-    case PressureUnit::kCount:
-      break;
-  }
-  return 1;
-}
-
 void requireSound(const PressureScale& scale) {
   if (std::isfinite(scale.low) && std::isfinite(scale.high) && scale.low < scale.high) return;
   throw settings::InputError("the scale runs from " + pressureText(scale.low, scale.unit) + " to " +

@@ -47,6 +47,20 @@ TEST(Regions, IncludeAnAlarmOfTheWholeMatrix) {
   EXPECT_EQ(regions[0].alarm.hysteresis, 20e3);
 }
 
+TEST(Regions, HaveAlarmsInTheUnitOfTheFile) {
+  const auto regions = read(
+      "unit: mmHg\n"
+      "alarm: {threshold: 100, hysteresis: 10}\n"
+      "regions: [{name: heel, rows: [0, 0], alarm: {threshold: 200}}]\n");
+  EXPECT_NEAR(regions[0].alarm.threshold, 13332.2387415, 1e-6);
+  EXPECT_NEAR(regions[0].alarm.hysteresis, 1333.22387415, 1e-6);
+  EXPECT_NEAR(regions[1].alarm.threshold, 26664.477483, 1e-6);
+  EXPECT_EQ(read("unit: kPa\nalarm: {threshold: 100}\n")[0].alarm.threshold, 100e3);
+  EXPECT_NE(refusal("unit: psi\n").find("unit"), std::string::npos);
+  EXPECT_NE(refusal("unit: mmHg\nalarm: {threshold: 100, hysteresis: 101}\n").find("0 to 100 mmHg"),
+            std::string::npos);
+}
+
 TEST(Regions, ReadTheShippedExample) {
   const auto regions = readRegionFile(test_support::sourceDir() + "/config/regions/example.yaml", {7, 10});
   ASSERT_EQ(regions.size(), 3u);

@@ -185,7 +185,7 @@ TEST_F(View, RaisesAnAlarmAsAnEventThoughNobodyLooks) {
   ASSERT_TRUE(setAlarm(13e3));
   ASSERT_TRUE(publishUntil([&] { return !events.empty(); }));
   EXPECT_EQ(events[0].kind, "note");
-  EXPECT_EQ(events[0].label, "ALARM: the whole matrix, peak 14 kPa");
+  EXPECT_EQ(events[0].label, "ALARM: the whole matrix, peak 105 mmHg");
   EXPECT_EQ(events[0].header.stamp, ros::Time(1234, 5));
   ASSERT_TRUE(setAlarm(100e3));
   ASSERT_TRUE(publishUntil([&] { return events.size() > 1; }));

@@ -39,6 +39,7 @@ struct Region {
 
 /// Reads a region file. A region is a rectangle, or a mask with one line for each row:
 ///
+///     unit: Pa               # of thresholds and hysteresis, optional: Pa, kPa or mmHg
 ///     alarm: {threshold: 250e3, dwell: 1.0, hysteresis: 20e3}   # of the whole matrix, optional [Pa, s, Pa]
 ///     regions:
 ///       - name: patellar_tendon

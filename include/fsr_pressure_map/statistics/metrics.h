@@ -18,7 +18,7 @@ constexpr std::size_t kPressureBins = kPressureBinEdges.size();
 std::size_t pressureBin(double pressure);
 
 /// "0-50", ..., "400+" [kPa, gauge].
-std::string pressureBinName(std::size_t bin);
+std::string pressureBinName(std::size_t bin, double unit = 1e3);
 
 /// Whether the chamber was being loaded or unloaded when a scan was taken. A dwell belongs to the direction
 /// before it.

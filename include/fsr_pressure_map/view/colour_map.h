@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "fsr_pressure_map/settings/pressure_unit.h"
+
 namespace fsr::view {
 
 /// A colour in sRGB.
@@ -41,17 +43,11 @@ inline Colour colourAt(const std::uint8_t* table, double fraction) {
   return {rgb[0], rgb[1], rgb[2]};
 }
 
-/// Units for display; all other interfaces use Pa. kCount is for pictures of raw scans, which are not
-/// pressures.
-enum class PressureUnit { kKilopascal, kMillimetreOfMercury, kCount };
-
-std::vector<std::string> pressureUnitNames();  ///< kPa, mmHg
-/// Throws InputError for a name that is not among pressureUnitNames().
-PressureUnit pressureUnitOf(const std::string& name);
-std::string name(PressureUnit unit);
-/// Size of one unit [Pa]. The conventional mmHg is 133.322387415 Pa (ISO 80000-4:2006). For kCount it is 1:
-/// such a scale contains counts.
-double pascals(PressureUnit unit);
+using settings::name;
+using settings::pascals;
+using settings::PressureUnit;
+using settings::pressureUnitNames;
+using settings::pressureUnitOf;
 
 /// Assigns colours to pressures, with the unit for the legend.
 struct PressureScale {

@@ -77,9 +77,9 @@ std::string comparisonText(const study::StudyComparison& comparison, const matri
 std::string splitText(const study::SplitResult& split) {
   TextTable table({}, {1});
   for (const study::StudyScore& score : split.scores) {
-    table.row({"  " + score.id, inKilopascals(score.errors.whole.all.rmse) + " kPa  (" +
-                                    inKilopascals(score.rmse_interval.low) + " to " +
-                                    inKilopascals(score.rmse_interval.high) + "), RMSE% " +
+    table.row({"  " + score.id, inShownUnit(score.errors.whole.all.rmse) + " kPa  (" +
+                                    inShownUnit(score.rmse_interval.low) + " to " +
+                                    inShownUnit(score.rmse_interval.high) + "), RMSE% " +
                                     number(score.rmse_percent_spread.mean, 2)});
   }
   return "\n" + split.id + ": " + split.description + "\n" + table.text();
@@ -116,7 +116,7 @@ std::string curvatureErrorText(const std::vector<study::CurvatureErrorCurve>& cu
   const double none = std::numeric_limits<double>::quiet_NaN();
   return "\nError of the map against error of the curvature: five_sections, trained with the right "
          "curvatures, told wrong ones\n" +
-         errorTable("RMSE [kPa]", curves, [](const Score& score) { return inKilopascals(score.rmse); }) +
+         errorTable("RMSE [kPa]", curves, [](const Score& score) { return inShownUnit(score.rmse); }) +
          errorTable("RMSE [% of range]", curves,
                     [](const Score& score) { return settings::fixedText(score.rmse_percent, 2); }) +
          errorTable(

@@ -26,16 +26,6 @@ std::string nameOf(const std::string& region) {
   return region.empty() ? "the whole matrix" : "region " + region;
 }
 
-std::string kilopascals(double pressure) {
-  return fsr::settings::roundedKilopascals(pressure, 4);
-}
-
-// "region toe at 40 kPa", or "no alarm for region toe".
-std::string alarmText(const std::string& region, const AlarmOptions& alarm) {
-  return alarm.used() ? nameOf(region) + " at " + kilopascals(alarm.threshold)
-                      : "no alarm for " + nameOf(region);
-}
-
 void require(const char* field, double value, double highest, const char* unit) {
   if (value >= 0 && value <= highest) return;  // false for NaN
   throw fsr::settings::InputError(std::string("set_alarm: ") + field + " is " +
@@ -47,11 +37,19 @@ void require(const char* field, double value, double highest, const char* unit) 
 
 AlarmDesk::AlarmDesk(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle,
                      const ViewSettings& settings, std::function<void()> changed)
-    : private_handle_(private_handle), region_file_(settings.regions), changed_(std::move(changed)) {
+    : private_handle_(private_handle),
+      region_file_(settings.regions),
+      unit_(settings.style.scale.unit),
+      changed_(std::move(changed)) {
   if (settings.alarm.used()) set_[""] = settings.alarm;
   takeKept(settings.kept_alarms);
   events_ = ros::NodeHandle(handle).advertise<fsr_pressure_map::Event>("events", 100);
   service_ = private_handle_.advertiseService("set_alarm", &AlarmDesk::serve, this);
+}
+
+std::string AlarmDesk::text(double pressure) const {
+  return fsr::settings::roundedText(pressure / fsr::settings::pascals(unit_), 4) + ' ' +
+         fsr::settings::name(unit_);
 }
 
 bool AlarmDesk::any() const {
@@ -101,9 +99,9 @@ std::string AlarmDesk::set(const Request& request) {
   keep();
   changed_();
   if (!alarm.used()) return "no alarm is set for " + name;
-  return "alarm of " + name + " at " + kilopascals(alarm.threshold) + " after " +
+  return "alarm of " + name + " at " + text(alarm.threshold) + " after " +
          fsr::settings::roundedText(alarm.dwell, 4) + " s, until below " +
-         kilopascals(alarm.threshold - alarm.hysteresis);
+         text(alarm.threshold - alarm.hysteresis);
 }
 
 // One line for each alarm that the service set: threshold [Pa], 0 = none; dwell [s]; hysteresis [Pa]; region.
@@ -130,7 +128,8 @@ void AlarmDesk::takeKept(const std::string& kept) {
     if (!(alarm.threshold > 0)) alarm.threshold = std::numeric_limits<double>::infinity();
     set_[region] = alarm;
     by_service_.insert(region);
-    said += (said.empty() ? "" : ", ") + alarmText(region, alarm);
+    said += (said.empty() ? "" : ", ") + (alarm.used() ? nameOf(region) + " at " + text(alarm.threshold)
+                                                       : "no alarm for " + nameOf(region));
   }
   if (said.empty()) return;
   ROS_WARN_STREAM(private_handle_.getNamespace() << " goes on with the alarms that were set last: " << said);
@@ -142,7 +141,7 @@ void AlarmDesk::note(const std_msgs::Header& header, const std::vector<fsr::map:
     const bool raised = region.alarm == AlarmState::kAlarm;
     if (raised == (before == AlarmState::kAlarm)) continue;
     std::string sentence = raised ? "ALARM: " + nameOf(region.region) + ", peak " +
-                                        (region.at_least > 0 ? ">= " : "") + kilopascals(region.peak)
+                                        (region.at_least > 0 ? ">= " : "") + text(region.peak)
                                   : "alarm ended: " + nameOf(region.region) +
                                         (region.alarm == AlarmState::kUnknown ? ", now unknown" : "");
     ROS_WARN_STREAM(private_handle_.getNamespace() << ": " << sentence);

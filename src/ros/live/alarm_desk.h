@@ -41,10 +41,12 @@ class AlarmDesk {
   std::string set(const Request& request);
   void keep() const;
   void takeKept(const std::string& kept);
+  std::string text(double pressure) const;
   fsr::map::AlarmOptions present(const std::string& region) const;
 
   ros::NodeHandle private_handle_;
   std::string region_file_;
+  fsr::settings::PressureUnit unit_;  // of pressures in sentences
   std::function<void()> changed_;
   bool known_ = false;                                  // the regions, with the first map
   std::map<std::string, fsr::map::AlarmOptions> file_;  // by region, as the region file sets them

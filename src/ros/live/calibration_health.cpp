@@ -127,8 +127,8 @@ std::string tareSentence(const CalibrationHealth& health) {
   text += health.tare_refusal.empty() ? "no tare was taken on this surface and mount" : health.tare_refusal;
   if (!std::isnan(zero.rmse)) {
     text += "; a tare at rest made the error of sessions that training left out " +
-            fsr::settings::roundedKilopascals(zero.rmse, 3) + " instead of " +
-            fsr::settings::roundedKilopascals(zero.rmse_without, 3);
+            fsr::settings::roundedPressure(zero.rmse, 3) + " instead of " +
+            fsr::settings::roundedPressure(zero.rmse_without, 3);
   }
   return text + "; unload the sheet and call ~tare";
 }

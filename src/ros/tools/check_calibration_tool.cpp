@@ -265,7 +265,7 @@ CommandLine checkCalibrationOptions() {
           "of a folder: probability that a date at which nothing changed shows a change by chance, 0.0001 "
           "to 0.2; default 0.01")
       .flag("no-figures", "of a folder, with --output: write the tables only");
-  return addBagOptions(line);
+  return addBagOptions(addUnitOption(line));
 }
 
 int checkOnBags(const CommandLine& line, std::ostream& out) {
@@ -300,12 +300,13 @@ int checkOnBags(const CommandLine& line, std::ostream& out) {
 int checkCalibrationTool(int argc, const char* const* argv, std::ostream& out) {
   CommandLine line = checkCalibrationOptions();
   if (!line.parse(argc, argv, out)) return 0;
+  takeUnit(line);
   if (line.files().empty()) {
     throw InputError(
         "no CALIBRATION and BAG is given, and no DIR for the life of a sheet; see check_calibration --help");
   }
   if (!std::filesystem::is_directory(line.files().front())) return checkOnBags(line, out);
-  line.refuse({"correct", "same-mount", "report"},
+  line.refuse({"correct", "same-mount", "report", "unit"},
               "is for a calibration and bags, not for a folder; remove it");
   return showLives(line, out);
 }

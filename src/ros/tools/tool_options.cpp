@@ -70,6 +70,15 @@ fsr::settings::CommandLine& addBagOptions(fsr::settings::CommandLine& line) {
       .option("namespace", "NS", "namespace of the sensor, if a bag holds several");
 }
 
+fsr::settings::CommandLine& addUnitOption(fsr::settings::CommandLine& line) {
+  return line.option("unit", "NAME", "print pressures in kPa or mmHg; default kPa");
+}
+
+void takeUnit(const fsr::settings::CommandLine& line) {
+  using namespace fsr::settings;
+  showPressuresIn(pressureUnitOf(line.choice("unit", pressureUnitNames(), name(PressureUnit::kKilopascal))));
+}
+
 BagReadOptions bagReadOptions(const fsr::settings::CommandLine& line) {
   BagReadOptions how;
   how.counts_in_memory = kCountsInMemory;

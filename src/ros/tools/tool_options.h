@@ -34,6 +34,12 @@ std::string shellWord(const std::string& word);
 /// Adds the options --namespace and --ambient of a tool that reads bags. Returns the line.
 fsr::settings::CommandLine& addBagOptions(fsr::settings::CommandLine& line);
 
+/// Adds the option --unit of the pressures that a tool prints. Returns the line.
+fsr::settings::CommandLine& addUnitOption(fsr::settings::CommandLine& line);
+
+/// Shows pressures in the unit of --unit, or in kPa. Throws fsr::settings::InputError.
+void takeUnit(const fsr::settings::CommandLine& line);
+
 /// How a tool reads bags: by its options --namespace and --ambient, the counts of long bags into a file.
 /// Throws fsr::settings::InputError.
 BagReadOptions bagReadOptions(const fsr::settings::CommandLine& line);

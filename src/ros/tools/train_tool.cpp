@@ -78,7 +78,7 @@ fsr::settings::CommandLine trainOptions() {
       .flag("no-scores", "do not compute the cross-validated scores")
       .flag("details", "print all tables of the training, not one screen; the file holds them in any case")
       .output("report", "FILE", "also write coverage, scores and provenance as JSON");
-  return addBagOptions(line);
+  return addBagOptions(addUnitOption(line));
 }
 
 // Options of another model would have no effect.
@@ -217,6 +217,7 @@ int trainTool(int argc, const char* const* argv, std::ostream& out) {
   if (const auto words = wordsOfCheck(argc, argv)) return checkInstead("train --check", *words, out);
   fsr::settings::CommandLine line = trainOptions();
   if (!line.parse(argc, argv, out)) return 0;
+  takeUnit(line);
   if (line.has("budget")) return showBudget(line, out);
   const std::string output = line.requiredText("output");
   const std::string report = line.text("report", "");

@@ -324,6 +324,13 @@ TEST_F(TrainTool, PrintsTheErrorBudgetOfAFileAgain) {
   EXPECT_NE(test_support::squeezed(again).find("transducer of the chamber 1.50 1.50 1.50 declared"),
             std::string::npos)
       << again;
+  const std::string clinic = run({"--budget", output, "--unit", "mmHg"});
+  EXPECT_NE(clinic.find("Error budget [mmHg]"), std::string::npos) << clinic;
+  EXPECT_EQ(clinic.find("[kPa]"), std::string::npos) << clinic;
+  EXPECT_NE(test_support::squeezed(clinic).find("transducer of the chamber 11.25 11.25 11.25 declared"),
+            std::string::npos)
+      << clinic;
+  EXPECT_EQ(run({"--budget", output}), again);
   EXPECT_EQ(run({"--budget", output, bend_}),
             "--budget prints what the file holds; remove the bags and --output");
   EXPECT_NE(run({bend_, "--output", output, "--transducer", "-1"}).find("--transducer"), std::string::npos);

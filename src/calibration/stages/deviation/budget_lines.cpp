@@ -274,8 +274,8 @@ BudgetLine Lines::curvature() const {
   const BudgetValues slope = atEach([&](std::size_t p) { return slopeOfCurvature(p); });
   if (!anyKnown(slope)) return notAssessed(name, "one table answers for all curvatures");
   std::string change = "1 1/m changes the answer by";
-  for (const double value : slope) change += " " + settings::fixedText(value / 1000, 2);
-  change += " kPa";
+  for (const double value : slope) change += " " + settings::inShownUnit(value, 2);
+  change += ' ' + settings::shownUnitName();
   double squares = 0, number = 0;
   bool each = true;
   for (const dataset::Recording& recording : recordings_) {

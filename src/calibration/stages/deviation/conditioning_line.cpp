@@ -29,7 +29,7 @@ std::string wordsOf(const std::vector<dataset::Conditioning>& sessions) {
   if (!only.enough)
     return "conditioned before the first recording, as the bags say: first loadings left out of the figure";
   return "conditioned: " + std::to_string(only.cycles) + " cycles to " +
-         settings::fixedText(only.peak / 1e3, 0) + " kPa at the start of the bags";
+         settings::fixedPressure(only.peak, 0) + " at the start of the bags";
 }
 
 }  // namespace
@@ -42,7 +42,7 @@ BudgetLine conditioningLine(const BudgetSums& sums, const std::vector<dataset::C
   for (std::size_t p = 0; p < sums.size(); ++p) {
     const BudgetPoint& point = sums[p];
     if (point.firsts > 0) line.standard[p] = std::sqrt(std::max(0.0, point.first / point.firsts));
-    mean += " " + settings::fixedText(point.first_change / point.firsts / 1e3, 2);
+    mean += " " + settings::inShownUnit(point.first_change / point.firsts, 2);
   }
   if (std::all_of(line.standard.begin(), line.standard.end(),
                   [](double value) { return std::isnan(value); })) {
@@ -52,7 +52,7 @@ BudgetLine conditioningLine(const BudgetSums& sums, const std::vector<dataset::C
   line.source = BudgetSource::kMeasured;
   line.note += std::string(kThen) +
                "change from the first cycle of a mount to the later ones, root mean square; mean" + mean +
-               " kPa";
+               ' ' + settings::shownUnitName();
   return line;
 }
 

@@ -25,8 +25,7 @@ std::string memoryText(const Calibration& calibration) {
   if (!calibration.history.present() || calibration.scores.history.parts.empty()) return "";
   const HistoryScore::Part& all = calibration.scores.history.parts.front();
   return " before the sheet's memory is settled (with it, the RMSE on left-out protocols falls from " +
-         settings::fixedKilopascals(all.static_rmse, 1) + " to " + settings::fixedKilopascals(all.rmse, 1) +
-         ")";
+         settings::fixedPressure(all.static_rmse, 1) + " to " + settings::fixedPressure(all.rmse, 1) + ")";
 }
 
 // What to do where no mount stands out.
@@ -46,8 +45,8 @@ std::string mountsNote(const Calibration& calibration, const NewMountErrors& err
   return "on a new mount of a known surface 68 % of the readings err by at most " +
          errorText(errors.within[0], range) + " and 95 % by at most " + errorText(errors.within[1], range) +
          memoryText(calibration) + "; worst of " + std::to_string(mounts.size()) + " mounts: " + worst->name +
-         ", RMSE " + settings::fixedKilopascals(worst->rmse, 1) + ", the others " +
-         settings::fixedKilopascals(others, 1) + "; next: " +
+         ", RMSE " + settings::fixedPressure(worst->rmse, 1) + ", the others " +
+         settings::fixedPressure(others, 1) + "; next: " +
          (stands_out
               ? "see whether that mount was as declared (check_bag), and leave it out or record it again"
               : nextStep(calibration));
@@ -63,7 +62,7 @@ std::string cyclesNote(const Calibration& calibration) {
          "cycles on the same mounts err by at most " +
          errorText(calibration.scores.whole.errors.whole.all.p95_absolute, calibration.trained.pressure) +
          "; worst surface: " + worst->condition.surface + ", RMSE " +
-         settings::fixedKilopascals(rmse(*worst), 1) + "; next: record each surface on two mounts or more";
+         settings::fixedPressure(rmse(*worst), 1) + "; next: record each surface on two mounts or more";
 }
 
 }  // namespace
@@ -88,8 +87,8 @@ std::string newMountNote(const ErrorBudget& budget) {
 }
 
 std::string errorText(double error, const TrainedInterval& range) {
-  return settings::fixedKilopascals(error, 1) + " (" +
-         settings::percentText(error / (range.high - range.low)) + " of the range)";
+  return settings::fixedPressure(error, 1) + " (" + settings::percentText(error / (range.high - range.low)) +
+         " of the range)";
 }
 
 }  // namespace fsr::calibration

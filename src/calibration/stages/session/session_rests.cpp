@@ -60,10 +60,10 @@ class SessionPressure {
     if (!span) return "it is shorter than " + settings::roundedText(options_.window, 2) + " s";
     const double level = levelOf(*span);
     if (level > std::max(kLeastLoad, kShareOfLoad * highest_))
-      return "the chamber is at " + settings::fixedKilopascals(level, 1) + ", which is a load";
+      return "the chamber is at " + settings::fixedPressure(level, 1) + ", which is a load";
     if (level > allowed_) {
-      return "the chamber is at " + settings::fixedKilopascals(level, 1) +
-             ", but the lowest level that it holds later is " + settings::fixedKilopascals(lowest_, 1);
+      return "the chamber is at " + settings::fixedPressure(level, 1) +
+             ", but the lowest level that it holds later is " + settings::fixedPressure(lowest_, 1);
     }
     const std::vector<double> medians = mediansOf(*span);
     const auto half = medians.begin() + std::ptrdiff_t(medians.size() / 2);
@@ -75,8 +75,8 @@ class SessionPressure {
     if (std::abs(after - before) > kDrift + kDeviations * noise ||
         double(beyond) > kOutliers * double(medians.size())) {
       const auto [low, high] = std::minmax_element(medians.begin(), medians.end());
-      return "the chamber moves between " + settings::fixedKilopascals(*low, 1) + " and " +
-             settings::fixedKilopascals(*high, 1);
+      return "the chamber moves between " + settings::fixedPressure(*low, 1) + " and " +
+             settings::fixedPressure(*high, 1);
     }
     for (std::size_t i = span->begin; i < span->end; ++i) {  // without spikes
       if (std::abs(recording_.pressure[scans_[i]] - level) <= limit) rest.push_back(scans_[i]);

@@ -75,15 +75,15 @@ std::vector<float> TareMeasurement::offset(const std::vector<float>& standing,
     const double offset = result[taxel] + m.mean;
     if (std::abs(offset) > options_.limit) {
       throw settings::InputError("the tare is refused: " + place(taxel) + " reads " +
-                                 settings::roundedKilopascals(offset, 3) + " at rest, but must be within " +
-                                 settings::roundedKilopascals(options_.limit, 3) + " (~tare_limit)");
+                                 settings::roundedPressure(offset, 3) + " at rest, but must be within " +
+                                 settings::roundedPressure(options_.limit, 3) + " (~tare_limit)");
     }
     const double scatter = m.deviation();
     if (scatter > options_.scatter) {
       throw settings::InputError("the tare is refused: " + place(taxel) + " scatters by " +
-                                 settings::roundedKilopascals(scatter, 3) +
+                                 settings::roundedPressure(scatter, 3) +
                                  " as on a limb, but must be within " +
-                                 settings::roundedKilopascals(options_.scatter, 3) + " (~tare_scatter)");
+                                 settings::roundedPressure(options_.scatter, 3) + " (~tare_scatter)");
     }
     result[taxel] = static_cast<float>(offset) - (training.empty() ? 0.0F : training[taxel]);
   }
