@@ -168,6 +168,11 @@ void eachSpell(const std::vector<bool>& fails, Use use) {
   }
 }
 
+// The time between a scan of a stay and the one before it [s].
+double boundary(const Stay& stay, std::size_t scan) {
+  return scan == 0 ? std::max(0.0, stay.time(0) - 1e-3) : (stay.time(scan - 1) + stay.time(scan)) / 2;
+}
+
 // A taxel that fails.
 struct FailingTaxel {
   std::size_t taxel = 0;
@@ -207,6 +212,7 @@ class FaultSearch {
   std::vector<FailingTaxel> failingTaxels() const;
   bool findLine(const std::vector<FaultKind>& kinds);
   void joinLines(FaultKind kind, const std::vector<FailingTaxel>& failing);
+  double firstOther(std::size_t v, std::size_t scan, std::size_t taxel, double low, double high) const;
   std::vector<TaxelSpell> taxelSpells(const Members& members) const;
   bool keep(FaultKind kind, double p, const Members& members);
   bool isSound(std::size_t taxel) const { return std::count(taxels_.begin(), taxels_.end(), taxel) > 0; }
@@ -490,24 +496,33 @@ void FaultSearch::joinLines(FaultKind kind, const std::vector<FailingTaxel>& fai
   }
 }
 
-// The spells of taxels. They begin and end between two scans.
+// When a taxel first has another reading than `low` to `high`, after scan `scan` of stay `v`: until then a
+// spell goes on, since nothing shows that it has ended. INFINITY = never.
+double FaultSearch::firstOther(std::size_t v, std::size_t scan, std::size_t taxel, double low,
+                               double high) const {
+  for (; v < courses_.size(); ++v, scan = 0) {
+    TaxelCourse course(courses_[v], taxel);
+    for (; scan < courses_[v].scans(); ++scan) {
+      const double reading = course.reading(scan);
+      if (reading < low - kOpen || reading > high + kOpen) return boundary(sheet_.stays[v], scan);
+    }
+  }
+  return INFINITY;
+}
+
+// The spells of taxels.
 std::vector<TaxelSpell> FaultSearch::taxelSpells(const Members& members) const {
   std::vector<TaxelSpell> all;
   for (const auto& [taxel, spells] : members) {
     for (std::size_t v = 0; v < courses_.size(); ++v) {
-      const Stay& stay = sheet_.stays[v];
-      const std::size_t last = stay.scans() - 1;
-      const double half = last > 0 ? (stay.time(1) - stay.time(0)) / 2 : 0;
-      const auto before = [&](std::size_t scan) {
-        if (scan > last) return stay.time(last) + half;
-        return scan == 0 ? stay.time(0) - half : (stay.time(scan - 1) + stay.time(scan)) / 2;
-      };
       TaxelCourse course(courses_[v], taxel);
       eachSpell(spells[v], [&, t = taxel](std::size_t from, std::size_t to) {
         std::vector<double> readings;
         for (std::size_t i = (from + to) / 2; i < to; ++i) readings.push_back(course.reading(i));
-        const bool goes_on = v + 1 == courses_.size() && to > last;
-        all.push_back({t, std::max(0.0, before(from)), goes_on ? INFINITY : before(to),
+        const auto [low, high] = std::minmax_element(readings.begin(), readings.end());
+        const double begin = boundary(sheet_.stays[v], from);
+        if (!all.empty() && all.back().taxel == t && all.back().to > begin) all.back().to = begin;
+        all.push_back({t, begin, firstOther(v, to, t, *low, *high),
                        sheet_.full_scale * statistics::upperMedian(readings, 0)});
       });
     }

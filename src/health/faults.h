@@ -33,7 +33,7 @@ struct Sheet {
 
 enum class FaultKind { kStuckTaxels, kDeadTaxels, kRow, kColumn };
 
-/// A time in which a taxel fails. It ends with the stay, or goes on where the stay is the last one.
+/// A time in which a taxel fails. It goes on until the taxel has another reading.
 struct TaxelSpell {
   std::size_t taxel = 0;    ///< row-major
   double from = 0, to = 0;  ///< since the first scan of the first recording [s]; to = INFINITY: goes on
