@@ -57,6 +57,17 @@ const std::vector<RegionReading>& RegionReader::read(const ScanRecord& scan) {
   return readings_;
 }
 
+std::vector<TableColumn> withSheet(std::vector<TableColumn> columns, const StatisticsOptions& options) {
+  if (options.sheets) columns.insert(columns.begin() + 1, {"sheet", "", "its namespace in the bag", true});
+  return columns;
+}
+
+std::vector<TableValue> withSheet(std::vector<TableValue> row, const std::string& sheet,
+                                  const StatisticsOptions& options) {
+  if (options.sheets) row.insert(row.begin() + 1, sheet);
+  return row;
+}
+
 std::string regionName(const map::RegionStatistics& region) {
   return region.region.empty() ? map::kWholeMatrix : region.region;
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "exports/row_table.h"
 #include "exports/scan_formats.h"
 #include "fsr_pressure_map/map/map_statistics.h"
 
@@ -38,6 +39,12 @@ class RegionReader {
   std::vector<double> areas_;  // of the taxels [m^2]
   std::vector<RegionReading> readings_;
 };
+
+/// The columns, with the namespace of the sheet as the second one where options.sheets is set.
+std::vector<TableColumn> withSheet(std::vector<TableColumn> columns, const StatisticsOptions& options);
+/// The row, likewise.
+std::vector<TableValue> withSheet(std::vector<TableValue> row, const std::string& sheet,
+                                  const StatisticsOptions& options);
 
 /// Name of a region in a table: that of the whole matrix is map::kWholeMatrix.
 std::string regionName(const map::RegionStatistics& region);

@@ -47,9 +47,9 @@ const std::vector<ScanFormat>& scanFormats() {
       {"csv", "table with a row for each taxel and scan (.gz: compressed); takes several bags", true,
        opened<CsvTable>},
       {"statistics", "table with a row for each region and scan: peak, mean, force, area (.h5: HDF5)", true,
-       withOptions<StatisticsTable>},
+       withOptions<StatisticsTable>, true},
       {"trial", "table with a row for each region of a recording, and of each step in it (.h5: HDF5)", true,
-       withOptions<TrialTable>},
+       withOptions<TrialTable>, true},
       {"hdf5", "datasets with an entry for each scan (h5py, MATLAB, R)", false, opened<ScanTable>},
       {"tekscan", "ASCII as Tekscan's I-Scan and F-Scan save it (*.asf)", false, openTekscan},
       {"pliance", "ASCII as novel's pliance saves it (*.asc); needs maps", false, openPliance}};

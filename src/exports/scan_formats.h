@@ -20,6 +20,7 @@ struct StatisticsOptions {
   /// A step has at least this force on the whole matrix [N]; NaN = a tenth of its range above the lowest.
   double step_force = ScanRecord::kUnknown;
   double above = ScanRecord::kUnknown;  ///< pressure for the time above it [Pa]; NaN = none
+  bool sheets = false;                  ///< whether the second column names the sheet
 };
 
 /// An export format that takes the scans of a recording one after another.
@@ -29,6 +30,7 @@ struct ScanFormat {
   bool several_recordings = false;  ///< whether one output can hold several recordings
   /// Opens the output. Throws InputError if it cannot be written.
   std::function<std::unique_ptr<ScanSink>(const std::string& output, const StatisticsOptions& options)> open;
+  bool several_sheets = false;  ///< whether it says which sheet a row is of
 };
 
 /// The formats of this package. `export` offers each of them; a new format needs an entry here and nothing

@@ -45,6 +45,7 @@ struct ScanRecord {
 /// Properties of a recording that do not change during its export.
 struct ExportSubject {
   std::string name;         ///< base name of the bag
+  std::string sheet;        ///< its namespace in the bag; empty = the only one
   bool maps = false;        ///< whether scans come with pressure maps
   std::string sensor;       ///< id, else serial number; empty = unknown
   std::string model;        ///< of the sensor sheet; empty = unknown

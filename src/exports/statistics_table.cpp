@@ -36,13 +36,16 @@ std::vector<TableColumn> statisticsColumns(const std::string& unit) {
 }  // namespace
 
 StatisticsTable::StatisticsTable(const std::string& path, const StatisticsOptions& options)
-    : factor_(1 / view::pascals(options.unit)),
+    : options_(options),
+      factor_(1 / view::pascals(options.unit)),
       reader_(options),
-      table_(openRowTable(path, "statistics", statisticsColumns(view::name(options.unit)))) {}
+      table_(openRowTable(path, "statistics",
+                          withSheet(statisticsColumns(view::name(options.unit)), options))) {}
 
 void StatisticsTable::begin(const ExportSubject& subject) {
   reader_.begin(subject);
   bag_ = subject.name;
+  sheet_ = subject.sheet;
 }
 
 void StatisticsTable::add(const ScanRecord& scan) {
@@ -51,31 +54,32 @@ void StatisticsTable::add(const ScanRecord& scan) {
   for (const RegionReading& reading : reader_.read(scan)) {
     const map::RegionStatistics& of = reading.of;
     const bool peak = !std::isnan(of.peak);
-    table_->add({bag_,
-                 scan.session,
-                 scan.surface ? scan.surface->name : "",
-                 mounted ? double(scan.surface->mount) : kNone,
-                 scan.cycle ? double(*scan.cycle) : kNone,
-                 scan.event,
-                 1e-9 * double(scan.since_ns),
-                 1e-9 * double(scan.stamp_ns),
-                 regionName(of),
-                 of.peak * factor_,
-                 reading.peak_deviation * factor_,
-                 peak ? double(scan.layout.row(of.peak_taxel)) : kNone,
-                 peak ? double(scan.layout.column(of.peak_taxel)) : kNone,
-                 reading.mean_of_all * factor_,
-                 of.mean * factor_,
-                 reading.mean_deviation * factor_,
-                 of.force,
-                 reading.force_deviation,
-                 of.contact_area * 1e4,
-                 of.centre ? of.centre->x * 1e3 : kNone,
-                 of.centre ? of.centre->y * 1e3 : kNone,
-                 of.pressure_time_integral * factor_,
-                 double(of.at_least),
-                 double(of.bad),
-                 stateWord(scan.map->state)});
+    table_->add(withSheet({bag_,
+                           scan.session,
+                           scan.surface ? scan.surface->name : "",
+                           mounted ? double(scan.surface->mount) : kNone,
+                           scan.cycle ? double(*scan.cycle) : kNone,
+                           scan.event,
+                           1e-9 * double(scan.since_ns),
+                           1e-9 * double(scan.stamp_ns),
+                           regionName(of),
+                           of.peak * factor_,
+                           reading.peak_deviation * factor_,
+                           peak ? double(scan.layout.row(of.peak_taxel)) : kNone,
+                           peak ? double(scan.layout.column(of.peak_taxel)) : kNone,
+                           reading.mean_of_all * factor_,
+                           of.mean * factor_,
+                           reading.mean_deviation * factor_,
+                           of.force,
+                           reading.force_deviation,
+                           of.contact_area * 1e4,
+                           of.centre ? of.centre->x * 1e3 : kNone,
+                           of.centre ? of.centre->y * 1e3 : kNone,
+                           of.pressure_time_integral * factor_,
+                           double(of.at_least),
+                           double(of.bad),
+                           stateWord(scan.map->state)},
+                          sheet_, options_));
   }
 }
 

@@ -18,10 +18,11 @@ class StatisticsTable : public ScanSink {
   void finish() override { table_->finish(); }
 
  private:
+  StatisticsOptions options_;
   double factor_;  // of pressures in the table [unit / Pa]
   RegionReader reader_;
   std::unique_ptr<RowTable> table_;
-  std::string bag_;
+  std::string bag_, sheet_;
 };
 
 }  // namespace fsr::exports

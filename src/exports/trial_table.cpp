@@ -103,12 +103,13 @@ TrialTable::TrialTable(const std::string& path, const StatisticsOptions& options
     : options_(options),
       factor_(1 / view::pascals(options.unit)),
       reader_(options),
-      table_(openRowTable(path, "trial", trialColumns(view::name(options.unit)))) {}
+      table_(openRowTable(path, "trial", withSheet(trialColumns(view::name(options.unit)), options))) {}
 
 void TrialTable::begin(const ExportSubject& subject) {
   writeRecording();
   reader_.begin(subject);
   bag_ = subject.name;
+  sheet_ = subject.sheet;
 }
 
 void TrialTable::add(const ScanRecord& scan) {
@@ -167,7 +168,7 @@ void TrialTable::writeRow(const std::string& region, const std::vector<Moment>& 
   const auto over = [&](auto value) {
     return integral(time_, step, [&](std::size_t i) { return double(value(moments[i])); });
   };
-  table_->add(
+  table_->add(withSheet(
       {bag_,
        session_,
        surface_,
@@ -191,7 +192,8 @@ void TrialTable::writeRow(const std::string& region, const std::vector<Moment>& 
        at_least,
        step_force,
        options_.contact_threshold * factor_,
-       options_.above * factor_});
+       options_.above * factor_},
+      sheet_, options_));
 }
 
 void TrialTable::finish() {

@@ -50,7 +50,7 @@ class TrialTable : public ScanSink {
   double factor_;  // of pressures in the table [unit / Pa]
   RegionReader reader_;
   std::unique_ptr<RowTable> table_;
-  std::string bag_, session_, surface_;
+  std::string bag_, sheet_, session_, surface_;
   std::optional<std::uint32_t> mount_;
   matrix::Layout layout_;
   std::vector<double> time_;                  // of each scan [s]

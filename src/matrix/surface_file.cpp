@@ -55,6 +55,20 @@ Pose inverse(const Pose& pose) {
   return poseOf(-(back * Vector(px, py, pz)), back);
 }
 
+Pose onLimb(const Surface& surface, double around, double along) {
+  constexpr double kFlat = 1.0, kRadiusOfFlat = 0.07;  // [1/m], [m]
+  const Curvature middle = surface.known() ? surface.curvature[surface.curvature.size() / 2] : Curvature{};
+  const bool along_columns = std::abs(middle.x) >= std::abs(middle.y);  // the axis
+  const double curvature = along_columns ? middle.x : middle.y;
+  const double radius = std::abs(curvature) < kFlat ? kRadiusOfFlat : 1 / std::abs(curvature);
+  const Vector outwards(std::cos(around), std::sin(around), 0), axis = Vector::UnitZ();
+  Eigen::Matrix3d axes;
+  axes.col(2) = curvature < 0 ? Vector(-outwards) : outwards;
+  axes.col(along_columns ? 1 : 0) = axis;
+  axes.col(along_columns ? 0 : 1) = along_columns ? axis.cross(axes.col(2)) : axes.col(2).cross(axis);
+  return poseOf(radius * outwards + along * axis, Eigen::Quaterniond(axes));
+}
+
 std::optional<MeshPlace> readMeshPlace(const settings::Settings& settings) {
   if (!settings.has("mesh")) return std::nullopt;
   const settings::Settings section = settings.section("mesh");

@@ -19,6 +19,11 @@ struct Pose {
 /// The pose of the other frame in this one.
 Pose inverse(const Pose& pose);
 
+/// The matrix frame on a limb with the axis z: `around` from x about the axis [rad], `along` z from the
+/// origin [m]. The surface's axis, the direction of its lesser curvature, is that of the limb. Its radius is
+/// that of the taxel in the middle; 0.07 m where it is flat.
+Pose onLimb(const Surface& surface, double around, double along);
+
 /// The scan or drawing that a surface was made from, and where the matrix lies on it.
 struct MeshPlace {
   std::string file;  ///< absolute path

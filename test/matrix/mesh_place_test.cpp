@@ -94,5 +94,39 @@ TEST(MeshPlace, IsPartOfASurfaceFile) {
   std::filesystem::remove(path);
 }
 
+Surface bent(double x, double y) {
+  Surface surface;
+  surface.curvature = {{x, y, 0}};
+  return surface;
+}
+
+// A quarter round the limb is the direction y; the sheet's columns run along the axis.
+TEST(OnLimb, PutsTheSheetAtTheRadiusOfItsSurface) {
+  const Pose pose = onLimb(bent(20, 0), M_PI / 2, 0.1);
+  expectNear(pose.position, {0, 0.05, 0.1});
+  expectNear(axisOf(pose, 0), {-1, 0, 0});
+  expectNear(axisOf(pose, 1), {0, 0, 1});
+  expectNear(axisOf(pose, 2), {0, 1, 0});
+}
+
+TEST(OnLimb, TurnsTheLoadedFaceInwardsInASocket) {
+  const Pose pose = onLimb(bent(-20, 0), M_PI / 2, 0);
+  expectNear(pose.position, {0, 0.05, 0});
+  expectNear(axisOf(pose, 1), {0, 0, 1});
+  expectNear(axisOf(pose, 2), {0, -1, 0});
+}
+
+TEST(OnLimb, LaysTheRowsAlongTheAxisWhereTheColumnsAreBent) {
+  const Pose pose = onLimb(bent(0, 10), 0, 0);
+  expectNear(pose.position, {0.1, 0, 0});
+  expectNear(axisOf(pose, 0), {0, 0, 1});
+  expectNear(axisOf(pose, 2), {1, 0, 0});
+}
+
+TEST(OnLimb, PutsAFlatOrUnknownSheetAtSevenCentimetres) {
+  expectNear(onLimb(bent(0, 0), 0, 0).position, {0.07, 0, 0});
+  expectNear(onLimb(Surface(), 0, 0).position, {0.07, 0, 0});
+}
+
 }  // namespace
 }  // namespace fsr::matrix

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
 """The shipped launch files as users start them: default parameters, relative paths, several terminals and one roscore."""
+import csv
 import os
 import pathlib
 import signal
@@ -16,7 +17,9 @@ import rospkg
 import rospy
 import rosservice
 import rostest
+from diagnostic_msgs.msg import DiagnosticArray
 from fsr_pressure_map.msg import CalibrationInfo, MatrixInfo, PressureMap, PressureStatistics, PressureStatisticsArray, SurfaceCurvature
+from tf2_msgs.msg import TFMessage
 
 PACKAGE = pathlib.Path(rospkg.RosPack().get_path("fsr_pressure_map"))
 PROGRAMS = pathlib.Path(os.environ["CMAKE_PREFIX_PATH"].split(":")[0]) / "lib" / "fsr_pressure_map"
@@ -210,6 +213,47 @@ class LaunchFilesTest(unittest.TestCase):
         rospy.set_param("/use_sim_time", True)  # as a replay that was killed leaves it
         self.addCleanup(rospy.delete_param, "/use_sim_time")
         self.assertIn("rosparam set /use_sim_time false", self.refused("driver"))
+
+    def test_two_sheets_of_default_parameters_lie_round_one_limb(self):
+        launched, places, limb = self.start("sheets"), {}, []
+        subscribers = [rospy.Subscriber("/tf_static", TFMessage, lambda message: places.update((t.child_frame_id, t) for t in message.transforms)),
+                       rospy.Subscriber("/diagnostics", DiagnosticArray, lambda array: limb.extend(
+                           (status.level, {pair.key: pair.value for pair in status.values}) for status in array.status if status.name == "limb/limb: sheets"))]
+        self.wait_for(lambda: len(places) == 2 and (0, {"/sheet_1": "sheet_1", "/sheet_2": "sheet_2"}) in limb, launched)
+        self.assertEqual({place.header.frame_id for place in places.values()}, {"limb"})
+        for sheet, (x, y) in (("sheet_1", (0.07, 0)), ("sheet_2", (0, 0.07))):  # a quarter of the cylinder apart
+            at = places[f"{sheet}_matrix"].transform.translation
+            self.assertAlmostEqual(abs(at.x - x) + abs(at.y - y) + abs(at.z), 0, 9)
+            self.assertEqual(rospy.wait_for_message(f"/{sheet}/pressure_map", PressureMap, PATIENCE).header.frame_id, f"{sheet}_matrix")
+        rospy.wait_for_message("/limb/limb_statistics", PressureStatisticsArray, PATIENCE)
+        for subscriber in subscribers:
+            subscriber.unregister()
+        self.assertNotIn("has died", launched.end())
+
+    def test_sheets_with_rig_files_go_into_one_bag_and_one_table(self):
+        for sheet in ("left", "right"):
+            (self.folder / "simulation.yaml").write_text(BENCH.read_text().replace("board: {", f"board: {{serial: {sheet}, "))
+            subprocess.run([str(PROGRAMS / "simulate"), "--simulation", "simulation.yaml", "--output", "."], cwd=self.folder, check=True, stdout=subprocess.DEVNULL)
+            subprocess.run([str(PROGRAMS / "train"), "1_flat.bag", "2_cylinder_5cm.bag", "--output", f"{sheet}.h5"], cwd=self.folder, check=True, stdout=subprocess.DEVNULL)
+            (self.folder / f"{sheet}.yaml").write_text(f"calibration: {sheet}.h5\nalong: 0.05\n")
+        (self.folder / "board.yaml").write_text("serial_port: /dev/board\n")
+        said = self.refused("sheets", "rig_1:=board.yaml", "rig_2:=board.yaml")
+        self.assertIn("the rig files board.yaml and board.yaml have the same serial_port, /dev/board, but each sheet has a board of its own", said)
+        sheets = self.start("sheets", "sheets:=left right", "rig_1:=left.yaml", "rig_2:=right.yaml", "emulated:=true", f"simulation:={BENCH}", "scan_rate:=100")
+        for sheet in ("left", "right"):
+            self.wait_for_maps(sheets, f"/{sheet}/pressure_map")
+        record = self.start("record", "bag:=walk", "sheets:=left right", "session:=monday")
+        self.press("/left/session/mark", "step", "1")
+        written = self.folder / "walk.bag.active"
+        self.wait_for(lambda: written.exists() and written.stat().st_size > 60_000, record)
+        said = record.end()
+        self.assertRegex(said, r"recorded \d+ scans in .* on /left/raw, \d+ scans in .* on /right/raw, ")
+        sheets.end()
+        subprocess.run([str(PROGRAMS / "export"), "walk.bag", "--to", "trial", "--calibration", "left.h5,right.h5", "--output", "trial.csv"], cwd=self.folder, check=True)
+        with open(self.folder / "trial.csv", encoding="utf-8") as file:
+            rows = [row for row in csv.DictReader(file) if row["step"] == "0"]
+        self.assertEqual([(row["sheet"], row["session"]) for row in rows], [("left", "monday"), ("right", "monday")])
+        self.assertNotIn("NA", [row["peak_kPa"] for row in rows])
 
     def test_launch_files_notice_each_other(self):
         self.connect_board()

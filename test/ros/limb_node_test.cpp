@@ -1,3 +1,5 @@
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <fsr_pressure_map/MatrixInfo.h>
 #include <fsr_pressure_map/PressureStatisticsArray.h>
 #include <gtest/gtest.h>
 #include <ros/ros.h>
@@ -46,6 +48,34 @@ TEST(Limb, SumsItsSheetsAndReportsASilentOne) {
     left.publish(sheet(PressureStatistics::ALARM));
     return last().alarm == PressureStatistics::ALARM;
   }));
+}
+
+TEST(Limb, NamesTwoSheetsWhoseBoardsHaveOneSerialNumber) {
+  ros::NodeHandle handle;
+  test_support::Listener<diagnostic_msgs::DiagnosticArray> ears("/diagnostics");
+  const auto info = [](const std::string& serial) {
+    fsr_pressure_map::MatrixInfo message;
+    message.serial = serial;
+    return message;
+  };
+  ros::Publisher left = handle.advertise<fsr_pressure_map::MatrixInfo>("left/matrix_info", 1, true);
+  ros::Publisher right = handle.advertise<fsr_pressure_map::MatrixInfo>("right/matrix_info", 1, true);
+  const auto says = [&](const std::string& words, int level) {
+    return test_support::await([&] {
+      for (const auto& array : ears.messages) {
+        for (const auto& status : array->status) {
+          if (status.message.find(words) != std::string::npos && status.level == level) return true;
+        }
+      }
+      return false;
+    });
+  };
+  left.publish(info("A1"));
+  right.publish(info("A1"));
+  EXPECT_TRUE(says("/left and /right have the same serial number, A1: give each sheet the serial_port", 2));
+  ears.messages.clear();
+  right.publish(info("B2"));
+  EXPECT_TRUE(says("no statistics come from /left /right", 1));
 }
 
 }  // namespace

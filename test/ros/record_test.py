@@ -15,6 +15,7 @@ import rosbag
 import rosgraph
 import rospy
 import rostest
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from fsr_pressure_map.msg import MatrixFrame, MatrixInfo
 
 SCAN_RATE = 10.0  # [Hz], as in the paper: the slowest stream, whose chunk stays open longest
@@ -129,6 +130,22 @@ class RecordTest(unittest.TestCase):
         kept = [m.sequence for topic, m in self.recorded(bag) if topic == "/fsr/raw"]
         self.assertGreater(len(kept), least)
         self.assertEqual(kept, list(range(kept[0], kept[0] + len(kept))), "a hole before the end")
+
+    def test_one_bag_holds_two_sheets_and_says_where_they_are_one_board(self):
+        other, info = (rospy.Publisher(f"/other/{name}", kind, queue_size=100, latch=True) for name, kind in (("raw", MatrixFrame), ("matrix_info", MatrixInfo)))
+        info.publish(MatrixInfo(serial="FSR-0001", rows=7, columns=10, full_scale=4095))
+        other.publish(MatrixFrame(rows=7, columns=10, full_scale=4095, counts=[1] * 70))
+        complaints = []
+        subscriber = rospy.Subscriber("/diagnostics", DiagnosticArray, lambda array: complaints.extend(
+            status.message for status in array.status if status.level == DiagnosticStatus.ERROR))
+        self.record(None, "sheets:=fsr other")
+        self.publish_scans()
+        self.wait_for(lambda: any("/fsr and /other have the same serial number, FSR-0001: give each sheet" in one for one in complaints))
+        subscriber.unregister()
+        self.recorder.launch.send_signal(signal.SIGINT)
+        self.recorder.launch.wait(30)
+        topics = {topic for topic, _ in self.recorded(f"{self.recorder.bag}.bag")}
+        self.assertLessEqual({"/fsr/raw", "/other/raw", "/fsr/matrix_info", "/other/matrix_info", "/fsr/session"}, topics)
 
     def test_a_disk_that_fills_ends_the_launch_with_a_closed_bag(self):
         self.record(self.small_disk("2m"), "min_space:=1")

@@ -57,6 +57,15 @@ class LaunchCheck(unittest.TestCase):
     def test_the_example_of_a_rig_file_is_right(self):
         launch_check.check_rig(str(PACKAGE / "config" / "rig" / "example.yaml"))
 
+    def test_sheets_of_one_serial_port_are_refused(self):
+        call = launch_check.Call(["fsr_pressure_map", "sheets.launch"])
+        launch_check.check_ports(call, [("a.yaml", "/dev/a"), ("b.yaml", "/dev/b")])
+        self.assertIn("the rig files a.yaml and c.yaml have the same serial_port, /dev/a, but",
+                      self.refusal(launch_check.check_ports, call, [("a.yaml", "/dev/a"), ("b.yaml", "/dev/b"), ("c.yaml", "/dev/../dev/a")]))
+        launch_check.check_ports(launch_check.Call(["fsr_pressure_map", "sheets.launch", "emulated:=true"]), 2 * [("a.yaml", "/dev/a")])
+        call = launch_check.Call(["fsr_pressure_map", "sheets.launch", "serial_port:=/dev/a"])
+        self.assertIn("would be the port of every sheet", self.refusal(launch_check.check_ports, call, [("a.yaml", "/dev/a"), ("b.yaml", "/dev/b")]))
+
     def test_a_rig_file_may_describe_the_session_of_a_recording(self):
         self.assertLessEqual(launch_check.OF_A_SESSION, arguments("record"))
 

@@ -46,12 +46,6 @@ class Feeder {
   }
 
  private:
-  static SensorTopics::Types typesOf(const BagWalk& bag) {
-    SensorTopics::Types types;
-    for (const auto& [id, connection] : bag.connections()) types[connection.topic] = connection.type;
-    return types;
-  }
-
   template <typename Message>
   void take(const std::string& base) {
     const std::string topic = topics_.find(base);

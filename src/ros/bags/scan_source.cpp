@@ -17,6 +17,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -66,7 +67,7 @@ class ScanContext {
   void readLabels(const rosbag::Bag& bag, const SensorTopics& topics);
   void findCycles(const std::vector<std::pair<std::int64_t, double>>& pressure);
   template <typename Message, typename Take>
-  void forEach(const rosbag::Bag& bag, const SensorTopics& topics, const std::string& base, Take take);
+  void forEach(const rosbag::Bag& bag, const SensorTopics& topics, const std::string& topic, Take take);
 
   fsr_pressure_map::MatrixInfo board_;
   fsr_pressure_map::CalibrationInfo calibration_;
@@ -110,9 +111,8 @@ ScanContext::ScanContext(const rosbag::Bag& bag, const SensorTopics& topics, std
 
 // Calls `take` for each message of a topic, until it returns false.
 template <typename Message, typename Take>
-void ScanContext::forEach(const rosbag::Bag& bag, const SensorTopics& topics, const std::string& base,
+void ScanContext::forEach(const rosbag::Bag& bag, const SensorTopics& topics, const std::string& topic,
                           Take take) {
-  const std::string topic = topics.find(base);
   if (topic.empty()) return;
   topics.requireType(topic, ros::message_traits::datatype<Message>());
   forEachMessage(bag, {topic}, [&](const rosbag::MessageInstance& message) {
@@ -121,30 +121,32 @@ void ScanContext::forEach(const rosbag::Bag& bag, const SensorTopics& topics, co
 }
 
 void ScanContext::readBoard(const rosbag::Bag& bag, const SensorTopics& topics) {
-  forEach<fsr_pressure_map::MatrixInfo>(bag, topics, "matrix_info", [&](const auto& message) {
+  forEach<fsr_pressure_map::MatrixInfo>(bag, topics, topics.find("matrix_info"), [&](const auto& message) {
     board_ = message;
     return false;
   });
-  forEach<fsr_pressure_map::CalibrationInfo>(bag, topics, "calibration_info", [&](const auto& message) {
-    calibration_ = message;
-    return calibration_.id.empty();
-  });
-  forEach<fsr_pressure_map::SurfaceCurvature>(bag, topics, "curvature", [&](const auto& message) {
-    first_surface_ = std::make_shared<fsr::matrix::Surface>(toSurface(message));
-    return false;
-  });
+  forEach<fsr_pressure_map::CalibrationInfo>(bag, topics, topics.find("calibration_info"),
+                                             [&](const auto& message) {
+                                               calibration_ = message;
+                                               return calibration_.id.empty();
+                                             });
+  forEach<fsr_pressure_map::SurfaceCurvature>(
+      bag, topics, topics.find("curvature"), [&](const auto& message) {
+        first_surface_ = std::make_shared<fsr::matrix::Surface>(toSurface(message));
+        return false;
+      });
 }
 
 void ScanContext::readSeries(const rosbag::Bag& bag, const SensorTopics& topics) {
   std::vector<std::pair<std::int64_t, double>> pressure;
-  forEach<sensor_msgs::FluidPressure>(bag, topics, "chamber_pressure", [&](const auto& message) {
+  forEach<sensor_msgs::FluidPressure>(bag, topics, topics.find("chamber_pressure"), [&](const auto& message) {
     chamber_.add(stampOf(message.header), message.fluid_pressure);
     if (std::isfinite(message.fluid_pressure)) {
       pressure.emplace_back(stampOf(message.header), message.fluid_pressure - ambient_);
     }
     return true;
   });
-  forEach<sensor_msgs::Temperature>(bag, topics, "temperature", [&](const auto& message) {
+  forEach<sensor_msgs::Temperature>(bag, topics, topics.find("temperature"), [&](const auto& message) {
     temperature_.add(stampOf(message.header), message.temperature);
     return true;
   });
@@ -162,17 +164,25 @@ void ScanContext::findCycles(const std::vector<std::pair<std::int64_t, double>>&
 }
 
 void ScanContext::readLabels(const rosbag::Bag& bag, const SensorTopics& topics) {
-  forEach<fsr_pressure_map::Session>(bag, topics, "session", [&](const auto& message) {
+  // One session node serves all sheets of a recording; each may have events of its own besides.
+  const std::string session =
+      topics.findShared("session", ros::message_traits::datatype<fsr_pressure_map::Session>());
+  forEach<fsr_pressure_map::Session>(bag, topics, session, [&](const auto& message) {
     if (sessions_.empty() || sessions_.back().second != message.session_id) {
       sessions_.emplace_back(stampOf(message.header), message.session_id);
     }
     return true;
   });
-  forEach<fsr_pressure_map::Event>(bag, topics, "events", [&](const auto& message) {
-    events_.emplace_back(stampOf(message.header),
-                         message.kind + (message.label.empty() ? "" : ":" + message.label));
-    return true;
-  });
+  std::set<std::string> events = {topics.find("events")};
+  const std::string beside = session.substr(0, session.rfind('/') + 1) + "events";
+  if (!session.empty() && topics.has(beside)) events.insert(beside);
+  for (const std::string& topic : events) {
+    forEach<fsr_pressure_map::Event>(bag, topics, topic, [&](const auto& message) {
+      events_.emplace_back(stampOf(message.header),
+                           message.kind + (message.label.empty() ? "" : ":" + message.label));
+      return true;
+    });
+  }
   const auto earlier = [](const Label& a, const Label& b) { return a.first < b.first; };
   std::stable_sort(sessions_.begin(), sessions_.end(), earlier);
   std::stable_sort(events_.begin(), events_.end(), earlier);
@@ -218,8 +228,8 @@ void ScanContext::complete(fsr::exports::ScanRecord& scan) const {
 // Computes the maps of recorded scans with a calibration file.
 class MapMaker {
  public:
-  // `path` of a calibration file; empty = no maps are computed. Throws fsr::InputError.
-  MapMaker(const std::string& path, const fsr_pressure_map::MatrixInfo& board);
+  // Throws fsr::InputError.
+  MapMaker(const ScanSelection& selection, const fsr_pressure_map::MatrixInfo& board);
 
   // Description of the calibration; nullptr without one.
   const fsr_pressure_map::CalibrationInfo* info() const { return loaded_ ? &loaded_->info : nullptr; }
@@ -233,9 +243,23 @@ class MapMaker {
   std::shared_ptr<const fsr::matrix::Surface> surface_;
 };
 
-MapMaker::MapMaker(const std::string& path, const fsr_pressure_map::MatrixInfo& board) {
-  if (path.empty()) return;
-  loaded_ = loadForUse(path, {});
+MapMaker::MapMaker(const ScanSelection& selection, const fsr_pressure_map::MatrixInfo& board) {
+  const bool one = selection.calibrations.size() == 1 && !selection.several_sheets;
+  std::string others;
+  for (const std::string& path : selection.calibrations) {
+    loaded_ = loadForUse(path, {});
+    const std::string& of = loaded_->info.sensor_serial;
+    if (one || (of == board.serial && !of.empty())) break;
+    others += (others.empty() ? "" : ", ") + path + " of " + (of.empty() ? "an unknown board" : of);
+    loaded_.reset();
+  }
+  if (selection.calibrations.empty()) return;
+  if (!loaded_) {
+    throw fsr::settings::InputError(
+        "the sheet " + selection.topics + " has the board " + (board.serial.empty() ? "-" : board.serial) +
+        ", but --calibration names " + others +
+        "; give the calibration of each sheet, separated by commas, or choose one sheet with --namespace");
+  }
   const std::string& serial = loaded_->info.sensor_serial;
   loaded_->calibrator.setWrongSensor(!serial.empty() && !board.serial.empty() && serial != board.serial);
   if (board.mask.size() == loaded_->calibrator.layout().size.taxels()) {
@@ -274,7 +298,7 @@ class Joiner {
   Joiner(const ScanSelection& selection, const ScanContext& context, fsr::exports::ScanSink& sink)
       : selection_(selection),
         context_(context),
-        maker_(selection.calibration, context.board()),
+        maker_(selection, context.board()),
         sink_(sink),
         until_ns_(nanoseconds(selection.until)) {}
 
@@ -395,12 +419,12 @@ ScanTopics scanTopics(const SensorTopics& topics, const ScanSelection& selection
   found.raw = find("raw", ros::message_traits::datatype<fsr_pressure_map::MatrixFrame>());
   found.map = find(selection.map, ros::message_traits::datatype<fsr_pressure_map::PressureMap>());
   found.curvature = find("curvature", ros::message_traits::datatype<fsr_pressure_map::SurfaceCurvature>());
-  if (!selection.calibration.empty()) {
+  if (!selection.calibrations.empty()) {
     if (found.raw.empty())
       throw fsr::settings::InputError("holds no topic raw, which --calibration needs to compute maps");
     found.map.clear();
   }
-  if (selection.map != ScanSelection().map && found.map.empty() && selection.calibration.empty()) {
+  if (selection.map != ScanSelection().map && found.map.empty() && selection.calibrations.empty()) {
     throw fsr::settings::InputError("holds no topic " + selection.map + ", but " + topics.list());
   }
   return found;
@@ -426,6 +450,14 @@ void feed(const rosbag::Bag& bag, const ScanTopics& topics, const BagWalk::ReadP
 
 }  // namespace
 
+std::vector<std::string> sheetsIn(const std::string& path, const ScanSelection& selection) {
+  if (!selection.topics.empty()) return {selection.topics};
+  std::set<std::string> found;
+  tellingOfDamage(
+      path, [&] { found = SensorTopics::namespaces(typesOf(BagWalk(path)), sensorMarks(selection.map)); });
+  return {found.begin(), found.end()};
+}
+
 std::size_t sendScans(const std::string& path, const ScanSelection& selection, fsr::exports::ScanSink& sink) {
   std::size_t sent = 0;
   withSoundBag(
@@ -436,6 +468,7 @@ std::size_t sendScans(const std::string& path, const ScanSelection& selection, f
         ScanContext context(bag, topics, selection.ambient);
         fsr::exports::ExportSubject subject = context.subject();
         subject.name = std::filesystem::path(path).filename().string();
+        subject.sheet = selection.topics;
         subject.maps = !scans.map.empty();
         Joiner joiner(selection, context, sink);
         joiner.begin(subject);

@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "exports/scan_record.h"
 
@@ -13,7 +14,10 @@ namespace fsr_ros {
 struct ScanSelection {
   std::string topics;                ///< namespace of the sensor; empty = the only one
   std::string map = "pressure_map";  ///< topic of the maps, if a bag holds several
-  std::string calibration;           ///< file to compute the maps with; empty = recorded maps
+  /// Files to compute the maps with: that of the board's serial number, where there are several; empty =
+  /// recorded maps.
+  std::vector<std::string> calibrations;
+  bool several_sheets = false;  ///< in the bag: then a calibration is used for its own board alone
   std::optional<double>
       ambient;      ///< ambient pressure [Pa]; none = that of matrix_info, or 101325 without one
   double from = 0;  ///< start, since the first scan [s]
@@ -22,6 +26,9 @@ struct ScanSelection {
   /// Is called now and then with what is done and its share; none = nobody asks.
   std::function<void(const std::string& step, double share)> progress = {};
 };
+
+/// Namespaces of the sheets in a bag: those with scans or maps; only that of `selection` where it names one.
+std::vector<std::string> sheetsIn(const std::string& bag, const ScanSelection& selection);
 
 /// Sends a bag's scans to `sink`, each with map, chamber pressure, temperature, surface, session, cycle and
 /// last event. Calls begin(), then add() in the order of the stamps, but not finish(). The bag is read twice

@@ -3,8 +3,8 @@
 #include <ros/serialization.h>
 #include <rosbag/view.h>
 
+#include <algorithm>
 #include <filesystem>
-#include <set>
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "settings/foreign_error.h"
@@ -83,6 +83,12 @@ std::map<std::string, std::string> typesIn(const rosbag::Bag& bag) {
   return types;
 }
 
+std::map<std::string, std::string> typesOf(const BagWalk& bag) {
+  std::map<std::string, std::string> types;
+  for (const auto& [id, connection] : bag.connections()) types[connection.topic] = connection.type;
+  return types;
+}
+
 SensorTopics::SensorTopics(Types types, const std::string& topics, const std::vector<Mark>& marks)
     : types_(std::move(types)) {
   prefix_ = withoutSlashes(topics);
@@ -95,17 +101,25 @@ SensorTopics::SensorTopics(Types types, const std::string& topics, const std::ve
                                   "; choose the sensor with --namespace");
 }
 
-std::string SensorTopics::findNamespace(const std::vector<Mark>& marks) const {
-  std::set<std::string> found;
-  for (const auto& [topic, type] : types_) {
+std::set<std::string> SensorTopics::namespaces(const Types& types, const std::vector<Mark>& marks) {
+  std::set<std::string> first, found;  // by the first mark, by another
+  for (const auto& [topic, type] : types) {
     const std::string name = "/" + withoutSlashes(topic);
     const std::size_t base = name.rfind('/') + 1;
-    for (const Mark& mark : marks) {
-      if (name.substr(base) == mark.base && type == mark.type) {
-        found.insert(withoutSlashes(name.substr(0, base)));
-      }
+    for (std::size_t i = 0; i < marks.size(); ++i) {
+      if (name.substr(base) != marks[i].base || type != marks[i].type) continue;
+      (i == 0 ? first : found).insert(withoutSlashes(name.substr(0, base)));
     }
   }
+  for (const std::string& name : found) {
+    const auto inside = [&](const std::string& of) { return name.compare(0, of.size() + 1, of + "/") == 0; };
+    if (std::none_of(first.begin(), first.end(), inside)) first.insert(name);
+  }
+  return first;
+}
+
+std::string SensorTopics::findNamespace(const std::vector<Mark>& marks) const {
+  const std::set<std::string> found = namespaces(types_, marks);
   if (found.empty()) {
     throw fsr::settings::InputError("holds no topic " + marks.front().base + " of type " +
                                     marks.front().type + ", but " + list() + "; record with record.launch");
@@ -123,6 +137,17 @@ std::string SensorTopics::find(const std::string& base) const {
     if (withoutSlashes(entry.first) == wanted) return entry.first;
   }
   return "";
+}
+
+std::string SensorTopics::findShared(const std::string& base, const std::string& type) const {
+  std::string found = find(base);
+  if (!found.empty()) return found;
+  for (const auto& [topic, its_type] : types_) {
+    if (its_type != type || ("/" + topic).substr(("/" + topic).rfind('/') + 1) != base) continue;
+    if (!found.empty()) return "";
+    found = topic;
+  }
+  return found;
 }
 
 std::string SensorTopics::list() const {

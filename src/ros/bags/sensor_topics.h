@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,8 @@ void forEachMessage(const rosbag::Bag& bag, const std::vector<std::string>& topi
 
 /// Message type of each topic that has a message.
 std::map<std::string, std::string> typesIn(const rosbag::Bag& bag);
+/// Message type of each topic in the index.
+std::map<std::string, std::string> typesOf(const BagWalk& bag);
 
 /// The topics of one sensor in a bag: the topics of one namespace, found by their base names.
 class SensorTopics {
@@ -45,8 +48,14 @@ class SensorTopics {
   /// fsr::InputError that lists the topics or sensors of the bag.
   SensorTopics(Types types, const std::string& topics, const std::vector<Mark>& marks);
 
+  /// Namespaces of the sensors in a bag, found by `marks`. One inside another that has the first mark, e.g.
+  /// fsr/flat_only in fsr, is no sensor without that mark itself.
+  static std::set<std::string> namespaces(const Types& types, const std::vector<Mark>& marks);
+
   /// The name of a topic as the bag spells it; "" = the bag does not have it.
   std::string find(const std::string& base) const;
+  /// The same, or else the only topic of this name and type in the bag, which then is that of all sheets.
+  std::string findShared(const std::string& base, const std::string& type) const;
   /// Whether the bag has a topic of this full name.
   bool has(const std::string& topic) const { return types_.count(topic) > 0; }
   /// All topics of the bag, "a, b".

@@ -6,6 +6,7 @@
 #include <std_msgs/Header.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -27,15 +28,17 @@ namespace fsr_ros {
 namespace {
 
 // Publishes the scan that a surface was made from on `mesh`, latched, and the transform from the frame of
-// the scan to that of the matrix on /tf_static. rviz then draws scan and map together.
+// the scan, or of the limb, to that of the matrix on /tf_static. rviz then draws scan and map together.
 class MeshPublisher {
  public:
   // `mesh_frame`: empty = no transform is published.
   MeshPublisher(ros::NodeHandle& handle, std::string mesh_frame);
 
-  // `place`: nothing for a surface that was made from no scan; then the last one disappears. A transform
-  // cannot be taken back: the last one stays until the node ends. `header`: the frame of the matrix.
-  void show(const std_msgs::Header& header, const std::optional<fsr::matrix::MeshPlace>& place);
+  // `place`: nothing for a surface that was made from no scan; then the last one disappears. `matrix`: where
+  // the matrix lies. A transform cannot be taken back: the last one stays until the node ends. `header`: the
+  // frame of the matrix.
+  void show(const std_msgs::Header& header, const std::optional<fsr::matrix::MeshPlace>& place,
+            const std::optional<fsr::matrix::Pose>& matrix);
 
  private:
   std::string mesh_frame_;
@@ -54,6 +57,7 @@ class CurvatureServer {
   bool setSurface(fsr_pressure_map::SetSurface::Request& request,
                   fsr_pressure_map::SetSurface::Response& response);
   void publish();
+  void showPlace();
   std_msgs::Header headerNow() const;
   std::string keptText(const LaidOn& now);
   void lay(const LaidOn& next);
@@ -64,6 +68,7 @@ class CurvatureServer {
   std::string frame_id_;
   fsr::matrix::Surface surface_;
   std::optional<fsr::matrix::MeshPlace> mesh_;  // under the matrix
+  double around_, along_;                       // place on a limb without a scan [degrees], [m]; NaN = none
   std::unique_ptr<SurfaceMemory> memory_;
   ros::Publisher publisher_;
   std::optional<MeshPublisher> mesh_publisher_;
@@ -77,7 +82,8 @@ MeshPublisher::MeshPublisher(ros::NodeHandle& handle, std::string mesh_frame)
   if (!mesh_frame_.empty()) transform_.emplace();
 }
 
-void MeshPublisher::show(const std_msgs::Header& header, const std::optional<fsr::matrix::MeshPlace>& place) {
+void MeshPublisher::show(const std_msgs::Header& header, const std::optional<fsr::matrix::MeshPlace>& place,
+                         const std::optional<fsr::matrix::Pose>& matrix) {
   std::error_code error;
   const bool readable = place && std::filesystem::is_regular_file(place->file, error);
   if (place && !readable) {
@@ -85,7 +91,7 @@ void MeshPublisher::show(const std_msgs::Header& header, const std::optional<fsr
                     << place->file << ", which mesh.file of the surface names, relative to the surface file");
   }
   mesh_.publish(readable ? toMarker(header, *place) : noMesh(header));
-  if (place && transform_) transform_->sendTransform(toTransform(header, mesh_frame_, place->matrix));
+  if (matrix && transform_) transform_->sendTransform(toTransform(header, mesh_frame_, *matrix));
 }
 
 namespace fs = std::filesystem;
@@ -99,6 +105,8 @@ CurvatureServer::CurvatureServer(const ros::NodeHandle& handle, const ros::NodeH
   size.columns = static_cast<std::uint16_t>(parameters.integer("columns", 10, side));
   surfaces_ = SurfaceFolder(parameters.text("surfaces", SurfaceFolder::shipped()), size);
   frame_id_ = parameters.text("frame_id", "fsr_matrix");
+  around_ = parameters.number("around", std::nan(""), {-360, 360, "degrees"});
+  along_ = parameters.number("along", 0, {-10, 10, "m"});
   start(parameters, private_handle.getNamespace());
 
   publisher_ = handle_.advertise<fsr_pressure_map::SurfaceCurvature>("curvature", 10, true);
@@ -107,7 +115,7 @@ CurvatureServer::CurvatureServer(const ros::NodeHandle& handle, const ros::NodeH
   service_ = services.advertiseService("set_surface", &CurvatureServer::setSurface, this);
   timer_ = handle_.createTimer(ros::Duration(1.0), [this](const ros::TimerEvent&) { publish(); });
   publish();
-  mesh_publisher_->show(headerNow(), mesh_);
+  showPlace();
 }
 
 CurvatureServer::~CurvatureServer() {
@@ -151,7 +159,7 @@ bool CurvatureServer::setSurface(fsr_pressure_map::SetSurface::Request& request,
   answer(response, [&] {
     lay({request.surface, request.mount != 0 ? request.mount : surface_.mount + 1});
     publish();
-    mesh_publisher_->show(headerNow(), mesh_);
+    showPlace();
     return "the matrix lies on " + surface_.name + " (mount " + std::to_string(surface_.mount) + "), from " +
            fs::absolute(surfaces_.pathOf(request.surface)).string() +
            keptText({request.surface, surface_.mount});
@@ -171,6 +179,13 @@ std::string CurvatureServer::keptText(const LaidOn& now) {
     ROS_ERROR_STREAM("the matrix lies on " << now.text() << complaint);
     return complaint;
   }
+}
+
+void CurvatureServer::showPlace() {
+  std::optional<fsr::matrix::Pose> matrix;
+  if (!std::isnan(around_)) matrix = fsr::matrix::onLimb(surface_, around_ * M_PI / 180, along_);
+  if (mesh_) matrix = mesh_->matrix;
+  mesh_publisher_->show(headerNow(), mesh_, matrix);
 }
 
 std_msgs::Header CurvatureServer::headerNow() const {

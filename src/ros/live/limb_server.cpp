@@ -1,14 +1,18 @@
 #include "ros/live/servers.h"
 
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <fsr_pressure_map/MatrixInfo.h>
 #include <fsr_pressure_map/PressureStatisticsArray.h>
 #include <ros/node_handle.h>
 
 #include <algorithm>
+#include <map>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "ros/live/parameters.h"
+#include "ros/messages/driver_messages.h"
 #include "ros/messages/view_messages.h"
 
 namespace fsr_ros {
@@ -21,17 +25,21 @@ class LimbServer {
 
  private:
   struct Sheet {
+    std::string name;  // its namespace
     fsr_pressure_map::PressureStatisticsArrayConstPtr last;
     ros::WallTime received;
-    ros::Subscriber subscriber;
+    ros::Subscriber subscriber, info;
   };
   void publish();
+  void judge(diagnostic_updater::DiagnosticStatusWrapper& status) const;
   bool isHeard(const Sheet& sheet) const;
 
   ros::NodeHandle handle_;
   double stale_after_;  // [s]
   std::vector<Sheet> sheets_;
+  std::map<std::string, std::string> serials_;  // of the boards, by the name of the sheet
   ros::Publisher sum_;
+  diagnostic_updater::Updater diagnostics_;
   ros::WallTimer silence_;
 };
 
@@ -71,7 +79,7 @@ fsr::map::RegionStatistics sumOf(const std::string& name,
 }
 
 LimbServer::LimbServer(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle)
-    : handle_(handle) {
+    : handle_(handle), diagnostics_(handle, private_handle, private_handle.getNamespace()) {
   const Parameters parameters(private_handle);
   stale_after_ = parameters.number("stale_after", 1.0, {0.05, 3600, "s"});
   const std::vector<std::string> topics = words(parameters.text("sheets", "statistics"));
@@ -85,8 +93,18 @@ LimbServer::LimbServer(const ros::NodeHandle& handle, const ros::NodeHandle& pri
       publish();
     };
     sheets_[i].subscriber = handle_.subscribe<PressureStatisticsArray>(topics[i], kQueueSize, keep);
+    const std::string topic = handle_.resolveName(topics[i]);
+    const std::string name = sheets_[i].name = topic.substr(0, topic.rfind('/'));
+    serials_[name];
+    sheets_[i].info = handle_.subscribe<fsr_pressure_map::MatrixInfo>(
+        name + "/matrix_info", 1, [this, name](const fsr_pressure_map::MatrixInfoConstPtr& message) {
+          serials_[name] = message->serial;
+        });
   }
+  diagnostics_.setHardwareID("none");
+  diagnostics_.add(kSheetsTask, [this](auto& status) { judge(status); });
   const auto look = [this](const ros::WallTimerEvent&) {
+    diagnostics_.update();
     if (std::none_of(sheets_.begin(), sheets_.end(), [this](const Sheet& sheet) { return isHeard(sheet); })) {
       publish();
     }
@@ -96,6 +114,22 @@ LimbServer::LimbServer(const ros::NodeHandle& handle, const ros::NodeHandle& pri
 
 bool LimbServer::isHeard(const Sheet& sheet) const {
   return sheet.last && (ros::WallTime::now() - sheet.received).toSec() <= stale_after_;
+}
+
+// The panel takes the names of the sheets from the keys.
+void LimbServer::judge(diagnostic_updater::DiagnosticStatusWrapper& status) const {
+  std::string silent;
+  for (const Sheet& sheet : sheets_) {
+    status.add(sheet.name, serials_.at(sheet.name));
+    if (!isHeard(sheet)) silent += " " + sheet.name;
+  }
+  const std::string twice = sameBoardSentence(serials_);
+  if (!silent.empty()) {
+    status.summary(diagnostic_msgs::DiagnosticStatus::WARN, "no statistics come from" + silent);
+  } else {
+    status.summary(diagnostic_msgs::DiagnosticStatus::OK, "all sheets are heard");
+  }
+  if (!twice.empty()) status.summary(diagnostic_msgs::DiagnosticStatus::ERROR, twice);
 }
 
 void LimbServer::publish() {

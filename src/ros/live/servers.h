@@ -8,6 +8,9 @@
 // fsr::InputError for parameters that cannot be used.
 namespace fsr_ros {
 
+/// Status of /diagnostics whose keys are the namespaces of the sheets round one limb.
+constexpr char kSheetsTask[] = "sheets";
+
 using Server = std::shared_ptr<void>;
 using MakeServer = Server (*)(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle);
 
@@ -33,15 +36,16 @@ Server makeCalibrationServer(const ros::NodeHandle& handle, const ros::NodeHandl
 ///
 /// Parameters: `~surface` (name of a file in `~surfaces`, or path of a surface file; empty = unknown until
 /// the service is called), `~surfaces` (folder of surface files), `~mount`, `~rows` and `~columns` (surface
-/// files with one value for each taxel must fit them), `~frame_id` (of the matrix), `~mesh_frame` (of scans;
-/// empty = no transform),
+/// files with one value for each taxel must fit them), `~frame_id` (of the matrix), `~mesh_frame` (of scans,
+/// or of the limb; empty = no transform), `~around` [degrees] and `~along` [m] (place on the limb without a
+/// scan, see matrix::onLimb()),
 /// `~surface_file` (keeps what ~set_surface said, for a node that died; see SurfaceMemory).
 Server makeCurvatureServer(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle);
 
 /// Combines the statistics of several sheets round one limb. Sums the topics in `~sheets` (separated by
 /// spaces or commas) by region name, and publishes `limb_statistics` for every message of any sheet. A sheet
 /// without a message for `~stale_after` [s] is left out of the sums, and every alarm that is not ALARM
-/// becomes UNKNOWN.
+/// becomes UNKNOWN. Diagnostics report silent sheets, and two whose boards have one serial number.
 Server makeLimbServer(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle);
 
 /// Collects messages from the topics raw, chamber_pressure, curvature, temperature and matrix_info, sent by

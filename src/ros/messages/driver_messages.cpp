@@ -1,7 +1,9 @@
 #include "ros/messages/driver_messages.h"
 
+#include <algorithm>
 #include <boost/make_shared.hpp>
 #include <cmath>
+#include <iterator>
 
 namespace fsr_ros {
 namespace {
@@ -89,6 +91,17 @@ fsr_pressure_map::MatrixInfo matrixInfo(const Board& board, const DriverSettings
   info.ambient_pressure = settings.ambient_pressure;
   info.transducer = settings.transducer;
   return info;
+}
+
+std::string sameBoardSentence(const std::map<std::string, std::string>& serials) {
+  for (auto first = serials.begin(); first != serials.end(); ++first) {
+    const auto second = std::find_if(std::next(first), serials.end(),
+                                     [&](const auto& other) { return other.second == first->second; });
+    if (first->second.empty() || second == serials.end()) continue;
+    return first->first + " and " + second->first + " have the same serial number, " + first->second +
+           ": give each sheet the serial_port of its own board, and each board a serial number of its own";
+  }
+  return "";
 }
 
 }  // namespace fsr_ros

@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <map>
 #include <string>
 
 #include "fsr_pressure_map/matrix/layout.h"
@@ -86,5 +87,9 @@ sensor_msgs::TemperaturePtr temperatureMessage(std::int32_t millidegrees,
 
 /// The stamp of the header is left 0.
 fsr_pressure_map::MatrixInfo matrixInfo(const Board& board, const DriverSettings& settings);
+
+/// A sentence that names two sheets whose boards have one serial number, and says what would be right; empty
+/// = there are none. `serials`: serial number by the namespace of each sheet; empty = unknown.
+std::string sameBoardSentence(const std::map<std::string, std::string>& serials);
 
 }  // namespace fsr_ros

@@ -11,6 +11,7 @@
 
 #include "ros/bags/resource_path.h"
 #include "ros/bags/surface_folder.h"
+#include "ros/messages/driver_messages.h"
 #include "ros/recording/session_server.h"
 #include "settings/number_text.h"
 
@@ -26,8 +27,9 @@ constexpr std::uint32_t kQueue = 10000;    // queue of each topic [messages]: te
 constexpr double kScanPatience = 10.0;     // time without a scan until an error, once scans have come [s]
 constexpr double kComplaintPeriod = 10.0;  // [s]
 
-bool isScan(const ShapeShifter& message) {
-  return message.getMD5Sum() == ros::message_traits::MD5Sum<fsr_pressure_map::MatrixFrame>::value();
+template <typename Message>
+bool isA(const ShapeShifter& message) {
+  return message.getMD5Sum() == ros::message_traits::MD5Sum<Message>::value();
 }
 
 double now() {
@@ -64,8 +66,8 @@ Recorder::Recorder(const ros::NodeHandle& handle, const ros::NodeHandle& private
   const Parameters parameters(private_handle);
   const BagSinkOptions options = readOptions(parameters);
   checkDescription(handle, parameters);
-  scans_topic_ = parameters.text("scans", "");
-  if (!scans_topic_.empty()) scans_topic_ = handle_.resolveName(scans_topic_);
+  std::istringstream scans(parameters.text("scans", ""));
+  for (std::string topic; scans >> topic;) scans_[handle_.resolveName(topic)].last = now();
   wait_ = parameters.number("wait", 10, {0.1, 3600, "s"});
   std::istringstream topics(parameters.text("topics", ""));
   parameters.warnOfUnknown("recorder");
@@ -79,7 +81,7 @@ Recorder::Recorder(const ros::NodeHandle& handle, const ros::NodeHandle& private
   diagnostics_.add("recording", [this](auto& status) { judge(status); });
   for (std::string topic; topics >> topic;) subscribe(topic);
   if (subscribers_.empty()) throw parameters.error("topics", "must name at least one topic");
-  start_ = last_scan_ = now();
+  start_ = now();
   timer_ = handle_.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) {
     watchScans();
     diagnostics_.force_update();
@@ -107,9 +109,12 @@ void Recorder::subscribe(const std::string& topic) {
       return;
     }
     ++received_[name];
-    if (name == scans_topic_ && isScan(*event.getConstMessage())) {
-      tally_.add(*event.getConstMessage()->instantiate<fsr_pressure_map::MatrixFrame>());
-      last_scan_ = fsr_ros::now();
+    const auto scans = scans_.find(name);
+    if (scans != scans_.end() && isA<fsr_pressure_map::MatrixFrame>(*event.getConstMessage())) {
+      scans->second.tally.add(*event.getConstMessage()->instantiate<fsr_pressure_map::MatrixFrame>());
+      scans->second.last = fsr_ros::now();
+    } else if (isA<fsr_pressure_map::MatrixInfo>(*event.getConstMessage())) {
+      keepSerial(name, *event.getConstMessage()->instantiate<fsr_pressure_map::MatrixInfo>());
     }
     sink_->add(event.getConstMessage()->size(), [name, time, event](rosbag::Bag& bag) {
       bag.write(name, time, *event.getConstMessage(), event.getConnectionHeaderPtr());
@@ -131,9 +136,12 @@ Recorder::~Recorder() {
     std::filesystem::remove(report.file, ignored);  // this node has made it, and it holds no scan
   } else {
     // Not to the log, which ROS has closed by now.
-    std::cout << "recorded " << (scans_topic_.empty() ? "" : tally_.text() + ", ") << report.messages
-              << " messages (" << report.lost << " lost on the way to the disk) in " << report.file
-              << (missingTopics().empty() ? "" : "; nothing came on" + missingTopics()) << std::endl;
+    std::cout << "recorded ";
+    for (const auto& [topic, scans] : scans_)
+      std::cout << scans.tally.text() << (scans_.size() > 1 ? " on " + topic : "") << ", ";
+    std::cout << report.messages << " messages (" << report.lost << " lost on the way to the disk) in "
+              << report.file << (missingTopics().empty() ? "" : "; nothing came on" + missingTopics())
+              << std::endl;
   }
 }
 
@@ -148,11 +156,22 @@ std::string Recorder::missingTopics() const {
   return missing;
 }
 
+void Recorder::keepSerial(const std::string& topic, const fsr_pressure_map::MatrixInfo& info) {
+  std::string& serial = serials_[topic.substr(0, topic.rfind('/'))];
+  if (serial == info.serial) return;
+  serial = info.serial;
+  const std::string twice = sameBoardSentence(serials_);
+  if (!twice.empty()) ROS_ERROR_STREAM(twice << "; the recording goes on");
+}
+
+// Of the topic that has been silent for the longest time.
 std::string Recorder::whyNoScan() const {
-  const std::string start = "no scan has come on " + scans_topic_ + " for " +
-                            fsr::settings::fixedText(fsr_ros::now() - last_scan_, 0) + " s: ";
+  const auto earlier = [](const auto& a, const auto& b) { return a.second.last < b.second.last; };
+  const auto& [topic, scans] = *std::min_element(scans_.begin(), scans_.end(), earlier);
+  const std::string start = "no scan has come on " + topic + " for " +
+                            fsr::settings::fixedText(fsr_ros::now() - scans.last, 0) + " s: ";
   for (const ros::Subscriber& subscriber : subscribers_) {
-    if (subscriber.getTopic() == scans_topic_ && subscriber.getNumPublishers() == 0) {
+    if (subscriber.getTopic() == topic && subscriber.getNumPublishers() == 0) {
       return start + "no driver runs; start driver.launch or calibrated.launch in another terminal";
     }
   }
@@ -165,17 +184,24 @@ std::string Recorder::whyNoScan() const {
 
 // Called once a second.
 void Recorder::watchScans() {
-  if (scans_topic_.empty() || failed_) return;
-  const double silence = fsr_ros::now() - last_scan_;
-  if (tally_.scans() == 0) {
-    if (silence > wait_) refuse();
+  if (scans_.empty() || failed_) return;
+  bool heard = false, silent = false;
+  for (auto& [topic, scans] : scans_) {
+    const bool any = scans.tally.scans() > 0;
+    const bool now_silent = now() - scans.last > (any ? kScanPatience : wait_);
+    if (std::exchange(scans.silent, now_silent) && !now_silent)
+      ROS_INFO_STREAM("scans come again on " << topic);
+    heard = heard || any;
+    silent = silent || now_silent;
+  }
+  if (!heard) {
+    if (silent) refuse();
     return;
   }
   if (now() - start_ > wait_ && !std::exchange(looked_, true) && !missingTopics().empty()) {
     ROS_WARN_STREAM("the recording goes on, but nothing has come yet on" << missingTopics());
   }
-  if (std::exchange(silent_, silence > kScanPatience) && !silent_) ROS_INFO("scans come again");
-  if (silent_) ROS_ERROR_STREAM_THROTTLE(kComplaintPeriod, whyNoScan());
+  if (silent) ROS_ERROR_STREAM_THROTTLE(kComplaintPeriod, whyNoScan());
 }
 
 void Recorder::refuse() {
@@ -190,13 +216,18 @@ void Recorder::judge(diagnostic_updater::DiagnosticStatusWrapper& status) {
   const std::uint64_t lost = now.lost - before_.lost;
   const std::uint64_t rate = now.messages - before_.messages;
   before_ = now;
-  const bool silent = silent_ || (!scans_topic_.empty() && tally_.scans() == 0);
+  const bool silent = std::any_of(scans_.begin(), scans_.end(), [](const auto& of) {
+    return of.second.silent || of.second.tally.scans() == 0;
+  });
+  const std::string twice = sameBoardSentence(serials_);
   if (!now.complaint.empty()) {
     status.summary(Level::ERROR, now.complaint);
   } else if (lost > 0) {
     status.summary(Level::ERROR, std::to_string(lost) + " messages lost: the disk is slower than the data");
   } else if (silent) {
     status.summary(Level::ERROR, whyNoScan());
+  } else if (!twice.empty()) {
+    status.summary(Level::ERROR, twice);
   } else if (rate == 0) {
     status.summary(Level::WARN, "no message to record to " + now.file);
   } else {

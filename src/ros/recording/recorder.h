@@ -2,6 +2,7 @@
 
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <fsr_pressure_map/MatrixFrame.h>
+#include <fsr_pressure_map/MatrixInfo.h>
 #include <ros/node_handle.h>
 
 #include <atomic>
@@ -39,10 +40,12 @@ class ScanTally {
 /// older recording is never overwritten. Diagnostics report the messages written and lost. If recording
 /// stops, the node logs the reason and ends.
 ///
-/// With `~scans` (a topic of scans) the node ends with an error where no scan has come `~wait` [s] after the
-/// start, and reports an error while scans fail to come later. It says at the end what was recorded.
+/// With `~scans` (topics of scans, one for each sheet) the node ends with an error where no scan has come
+/// `~wait` [s] after the start, and reports an error while scans of any sheet fail to come, or where two
+/// sheets have boards of one serial number. It says at the end what was recorded.
 ///
-/// Parameters: `~bag`, `~topics` (names, separated by spaces), `~scans`, `~wait` [s], `~surface` and
+/// Parameters: `~bag`, `~topics` (names, separated by spaces), `~scans` (likewise), `~wait` [s], `~surface`
+/// and
 /// `~surfaces` (checked at the start, as are the parameters of the session node if there are any),
 /// `~chunk_kb`, `~min_space` [MB], `~buffer` [MB].
 class Recorder {
@@ -76,6 +79,7 @@ class Recorder {
   void judge(diagnostic_updater::DiagnosticStatusWrapper& status);
   void watchScans();
   void refuse();
+  void keepSerial(const std::string& topic, const fsr_pressure_map::MatrixInfo& info);
   std::string whyNoScan() const;
   std::string missingTopics() const;
 
@@ -84,14 +88,17 @@ class Recorder {
   std::atomic<bool> failed_{false};
   std::atomic<std::uint64_t> without_time_{0};  // messages received before the first /clock
   std::unique_ptr<BagSink> sink_;
-  std::string scans_topic_;  // empty = no scans are expected
-  double wait_ = 0;          // [s]
-  ScanTally tally_;
+  struct Scans {
+    ScanTally tally;
+    double last = 0;      // when the last scan came, or the recording began (monotonic clock [s])
+    bool silent = false;  // no scan has come for a while
+  };
+  std::map<std::string, Scans> scans_;             // by topic; empty = no scans are expected
+  std::map<std::string, std::string> serials_;     // of the boards, by the namespace of the sheet
+  double wait_ = 0;                                // [s]
   std::map<std::string, std::uint64_t> received_;  // messages of each topic
   double start_ = 0;                               // (monotonic clock [s])
   bool looked_ = false;                            // at the topics on which nothing has come
-  double last_scan_ = 0;  // when the last scan came, or the recording began (monotonic clock [s])
-  bool silent_ = false;   // no scan has come for a while
   bool refused_ = false;
   diagnostic_updater::Updater diagnostics_;
   BagSinkReport before_;

@@ -21,19 +21,19 @@ using fsr_pressure_map::PressureStatistics;
 
 constexpr auto kNotSet = static_cast<std::uint8_t>(fsr::map::AlarmState::kNotSet);
 
-// Why the alarm of the whole matrix is unknown, in brackets; empty if the map gives no reason.
+// Why the alarm of the whole matrix is unknown; empty if the map gives no reason.
 QString reasonOfUnknown(const fsr_pressure_map::PressureMapConstPtr& message) {
-  if (!message) return " (no maps)";
+  if (!message) return "no maps";
   try {
     const fsr::map::PressureMap map = fsr_ros::toPressureMap(*message);
     const std::string state = fsr_ros::stateText(map.state);
-    if (!state.empty()) return " (" + text(state) + ")";
+    if (!state.empty()) return text(state);
     std::vector<fsr::view::TaxelLook> looks;
     for (std::size_t i = 0; i < map.flags.size(); ++i) {
       looks.push_back(fsr::view::lookOf(map.pressure[i], map.flags[i]));
     }
     const StatusLine taxels = taxelStatus(looks, map.flags);
-    return taxels.level == rviz::StatusProperty::Ok ? "" : " (" + text(taxels.text) + ")";
+    return taxels.level == rviz::StatusProperty::Ok ? "" : text(taxels.text);
   } catch (const fsr::settings::InputError&) {
     return "";  // the display shows what is wrong with the message
   }
@@ -96,8 +96,10 @@ PanelLine alarmLine(const fsr_pressure_map::PressureStatisticsArrayConstPtr& sta
       const bool whole = region.region.empty();
       const QString name = whole ? QString("whole matrix") : text(region.region);
       if (region.alarm == PressureStatistics::ALARM) alarm << name;
-      if (region.alarm == PressureStatistics::UNKNOWN)
-        unknown << (whole ? name + reasonOfUnknown(map) : name);
+      if (region.alarm == PressureStatistics::UNKNOWN) {
+        const QString reason = whole ? reasonOfUnknown(map) : "";
+        unknown << (reason.isEmpty() ? name : name + " (" + reason + ")");
+      }
       if (region.alarm == kNotSet) unset << name;
     }
   }
@@ -108,6 +110,35 @@ PanelLine alarmLine(const fsr_pressure_map::PressureStatisticsArrayConstPtr& sta
   if (!unknown.empty()) return {lines.join("\n"), "background: #606060; color: white"};
   if (unset.size() == static_cast<int>(statistics->regions.size())) return {"no alarm set", ""};
   return {unset.empty() ? QString("OK") : "OK (no alarm set: " + unset.join(", ") + ")", ""};
+}
+
+QString sheetsText(const std::vector<SheetOfLimb>& sheets, fsr::view::PressureUnit unit) {
+  const auto numbers = [&](const fsr::map::RegionStatistics& of) {
+    const bool at_least = of.at_least > 0;
+    return QString("peak ") + text(fsr::view::limitText(of.peak, unit, at_least)) + ", force " +
+           (at_least ? ">= " : "") + number(of.force, 1, "N", 1);
+  };
+  std::vector<fsr::map::RegionStatistics> all;
+  QStringList lines, without;
+  for (const SheetOfLimb& sheet : sheets) {
+    fsr::map::RegionStatistics whole;
+    QStringList alarm;
+    if (sheet.statistics && !sheet.statistics->regions.empty())
+      whole = fsr_ros::toStatistics(sheet.statistics->regions.front());
+    for (std::size_t r = 0; sheet.statistics && r < sheet.statistics->regions.size(); ++r) {
+      const PressureStatistics& region = sheet.statistics->regions[r];
+      if (region.alarm == PressureStatistics::ALARM) alarm << (r == 0 ? "whole matrix" : text(region.region));
+    }
+    const QString name = text(sheet.name.substr(sheet.name.find_first_not_of('/')));
+    if (!std::isfinite(whole.force)) without << name;
+    all.push_back(whole);
+    QString state = sheet.statistics ? reasonOfUnknown(sheet.map) : "no statistics";
+    if (!alarm.empty()) state = "ALARM (" + alarm.join(", ") + ")" + (state.isEmpty() ? "" : ", " + state);
+    lines << name + ": " + (state.isEmpty() ? "OK" : state) + ", " + numbers(whole);
+  }
+  const QString total = "all: " + numbers(fsr::map::sumOfSheets("", all));
+  lines.push_front(without.empty() ? total : total + " (without " + without.join(", ") + ")");
+  return lines.join("\n");
 }
 
 PanelLine restLine(const DiagnosticValues& values) {

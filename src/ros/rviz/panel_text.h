@@ -54,6 +54,17 @@ struct PanelLine {
 PanelLine alarmLine(const fsr_pressure_map::PressureStatisticsArrayConstPtr& statistics,
                     const fsr_pressure_map::PressureMapConstPtr& map);
 
+/// One of several sheets round a limb. A message is null if none has come recently.
+struct SheetOfLimb {
+  std::string name;  ///< its namespace
+  fsr_pressure_map::PressureStatisticsArrayConstPtr statistics;
+  fsr_pressure_map::PressureMapConstPtr map;
+};
+
+/// The lines "Sheets": highest peak and sum of forces, then state, peak and force of each sheet. The sum says
+/// which sheets it is without.
+QString sheetsText(const std::vector<SheetOfLimb>& sheets, fsr::view::PressureUnit unit);
+
 /// The line "Sheet at rest": whether the sheet rests as the surface says, as the diagnostics of the
 /// calibration node do, and what was done at the last doff if that is something else. "-" without values.
 PanelLine restLine(const DiagnosticValues& values);

@@ -11,14 +11,17 @@
 #include <cmath>
 
 #include "fsr_pressure_map/ros/pressure_map_message.h"
+#include "fsr_pressure_map/settings/input_error.h"
+#include "map/hold_peaks.h"
 
 namespace fsr_rviz {
 
 namespace {
 
 constexpr float kMostKilopascal = 10000;
-constexpr double kUsualRange = 600e3;    // until a calibration tells its own [Pa]
-constexpr double kDeviationShare = 0.1;  // of the pressures' range: a good map has a few per cent
+constexpr std::uint32_t kMapQueue = 1000;  // peaks are held through a second without a picture at 1 kHz
+constexpr double kUsualRange = 600e3;      // until a calibration tells its own [Pa]
+constexpr double kDeviationShare = 0.1;    // of the pressures' range: a good map has a few per cent
 
 }  // namespace
 
@@ -41,14 +44,23 @@ PressureMapDisplay::PressureMapDisplay() : SheetDisplay("map") {
   auto_range_ =
       new rviz::BoolProperty("Auto Range", false, "The bright end follows the peak pressure in round steps.",
                              this, SLOT(updateStyle()));
+  hold_ = new rviz::BoolProperty("Peak Hold", false,
+                                 "The highest pressure of each taxel since this was ticked, or since Reset.",
+                                 this, SLOT(updateHold()));
   addLook();
+}
+
+void PressureMapDisplay::updateHold() {
+  peaks_ = {};
+  hold();
+  updateStyle();
 }
 
 ros::Subscriber PressureMapDisplay::listen(const std::string& topic) {
   trained_high_ = 0;
   infos_ =
       update_nh_.subscribe(besideTopic("calibration_info"), kQueueSize, &PressureMapDisplay::onInfo, this);
-  return update_nh_.subscribe(topic, kQueueSize, &PressureMapDisplay::onMap, this);
+  return update_nh_.subscribe(topic, kMapQueue, &PressureMapDisplay::onMap, this);
 }
 
 void PressureMapDisplay::onInfo(const fsr_pressure_map::CalibrationInfoConstPtr& message) {
@@ -76,6 +88,14 @@ double PressureMapDisplay::highEnd() const {
 void PressureMapDisplay::onMap(const fsr_pressure_map::PressureMapConstPtr& message) {
   last_ = message;
   received(message->header);
+  hold();
+}
+
+void PressureMapDisplay::hold() {
+  try {
+    if (hold_->getBool() && last_) fsr::map::holdPeaks(fsr_ros::toPressureMap(*last_), peaks_);
+  } catch (const fsr::settings::InputError&) {  // paint() says it
+  }
 }
 
 fsr::view::MapLayer PressureMapDisplay::layer() const {
@@ -101,7 +121,7 @@ void PressureMapDisplay::followPeaks() {
 void PressureMapDisplay::paint(SheetPicture& picture) {
   fsr::map::PressureMap map = fsr_ros::toPressureMap(*last_);
   fsr::view::requireShowable(map);
-  map_ = std::move(map);
+  map_ = hold_->getBool() ? peaks_ : std::move(map);
   followPeaks();
   picture.layout = map_.layout;
   picture.values = fsr::view::layerOf(map_, layer());
@@ -120,6 +140,7 @@ fsr::view::Legend PressureMapDisplay::legend() const {
                         : "waiting for maps"};
   const std::string state = last_ ? stateHeadline(map_.state) : "";
   if (!state.empty()) legend.lines.push_back(state);
+  if (hold_->getBool()) legend.lines.push_back("peak hold");
   const std::string settling = fsr::view::settlingWord(unsettledShare());
   if (!settling.empty()) legend.lines.push_back(settling);
   return legend;

@@ -26,7 +26,13 @@ class PressureMapDisplay : public SheetDisplay {
   fsr::view::Legend legend() const override;
   ReadOut readOut(std::size_t taxel) const override;
   void sayState() override;
-  void forget() override { last_.reset(); }
+  void forget() override {
+    last_.reset();
+    peaks_ = {};
+  }
+
+ private Q_SLOTS:
+  void updateHold();
 
  private:
   void onInfo(const fsr_pressure_map::CalibrationInfoConstPtr& message);
@@ -36,6 +42,7 @@ class PressureMapDisplay : public SheetDisplay {
   fsr::view::MapLayer layer() const;
   fsr::view::PressureScale scale() const;
   void followPeaks();
+  void hold();
   /// Part of the taxels of the last map whose history is not settled; 0 without a map.
   double unsettledShare() const;
 
@@ -43,12 +50,13 @@ class PressureMapDisplay : public SheetDisplay {
   rviz::EnumProperty* unit_;
   rviz::FloatProperty* low_;
   rviz::FloatProperty* high_;
-  rviz::BoolProperty* auto_range_;
+  rviz::BoolProperty *auto_range_, *hold_;
 
   ros::Subscriber infos_;
   double trained_high_ = 0;  // of the calibration in use [Pa]; 0 = not known
   fsr_pressure_map::PressureMapConstPtr last_;
-  fsr::map::PressureMap map_;
+  fsr::map::PressureMap map_;    // what is shown
+  fsr::map::PressureMap peaks_;  // of each taxel, while they are held
   fsr::view::AutoRange range_;
   double auto_high_ = 0;  // [Pa]
 };

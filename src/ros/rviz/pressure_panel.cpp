@@ -27,6 +27,7 @@
 #include "dataset/recording_builder.h"
 #include "fsr_pressure_map/view/colour_map.h"
 #include "ros/live/calibration_health.h"
+#include "ros/live/servers.h"
 #include "ros/rviz/taxel_selection.h"
 
 namespace fsr_rviz {
@@ -40,6 +41,14 @@ constexpr int kRefresh = 200;   // [ms]
 constexpr std::uint32_t kPanelQueue = 10;
 constexpr double kReadable = 3.0;  // an answer stays this long after the instruction has changed [s]
 constexpr int kLines = 3;          // the longest instruction has as many in a panel as wide as the coverage
+
+// Whether a status is that of limb_node, and the topic `statistics` is that of one of its sheets.
+bool isOfLimb(const diagnostic_msgs::DiagnosticStatus& status, const std::string& statistics) {
+  const std::string task = std::string(": ") + fsr_ros::kSheetsTask;
+  const auto is_it = [&](const auto& pair) { return pair.key + "/statistics" == statistics; };
+  return QString::fromStdString(status.name).endsWith(QString::fromStdString(task)) &&
+         std::any_of(status.values.begin(), status.values.end(), is_it);
+}
 
 // A widget that is scrolled upwards and downwards where it is higher than its place.
 QScrollArea* scrolled(QWidget* content) {
@@ -86,6 +95,8 @@ PressurePanel::PressurePanel(QWidget* parent) : Panel(parent) {
   auto* content = new QWidget;
   auto* lines = new QVBoxLayout(content);
   lines->setContentsMargins(0, 0, 0, 0);
+  sheets_text_ = addText(lines, "sheets");
+  sheets_text_->hide();
   addNumbers(grid);
   lines->addLayout(grid);
   addButtons(lines);
@@ -270,19 +281,25 @@ std::string PressurePanel::name(const std::string& relative) const {
 }
 
 template <typename Message>
-void PressurePanel::keep(const std::string& topic, Last<Message>& last) {
+ros::Subscriber PressurePanel::follow(const std::string& topic, Last<Message>& last) {
   last = {};
   const auto store = [&last](const typename Message::ConstPtr& message) {
     last.message = message;
     last.received = ros::WallTime::now();
   };
-  subscribers_.push_back(handle_.subscribe<Message>(name(topic), kPanelQueue, store));
+  return handle_.subscribe<Message>(topic, kPanelQueue, store);
+}
+
+template <typename Message>
+void PressurePanel::keep(const std::string& topic, Last<Message>& last) {
+  subscribers_.push_back(follow(name(topic), last));
 }
 
 void PressurePanel::listen() {
   subscribers_.clear();
   complaints_.clear();
   rest_values_.clear();
+  sheets_.clear();
   try {
     subscribers_.push_back(handle_.subscribe<diagnostic_msgs::DiagnosticArray>(
         "/diagnostics", kPanelQueue, [this](const diagnostic_msgs::DiagnosticArrayConstPtr& all) {
@@ -307,17 +324,42 @@ void PressurePanel::listen() {
   Q_EMIT configChanged();
 }
 
-// Keeps the errors of the sensor's driver: why no scans come.
+// Keeps the errors of the sensor's driver, why no scans come, and those of the limb that the sensor is on.
 void PressurePanel::keepComplaints(const diagnostic_msgs::DiagnosticArray& diagnostics) {
   const std::string driver = handle_.resolveName(name("driver")).substr(1) + ":";
   for (const auto& status : diagnostics.status) {
-    if (status.name.compare(0, driver.size(), driver) != 0) continue;
+    const bool limb = isOfLimb(status, handle_.resolveName(name("statistics")));
+    if (limb) keepSheets(status);
+    if (!limb && status.name.compare(0, driver.size(), driver) != 0) continue;
     if (status.level == diagnostic_msgs::DiagnosticStatus::ERROR) {
-      complaints_[status.name] = {status.message, ros::WallTime::now()};
+      complaints_[status.name] = {(limb ? "Sheets: " : "Driver: ") + status.message, ros::WallTime::now()};
     } else {
       complaints_.erase(status.name);
     }
   }
+}
+
+// Listens to the sheets that limb_node names.
+void PressurePanel::keepSheets(const diagnostic_msgs::DiagnosticStatus& status) {
+  const bool known = std::all_of(status.values.begin(), status.values.end(),
+                                 [this](const auto& pair) { return sheets_.count(pair.key) > 0; });
+  if (known && sheets_.size() == status.values.size()) return;
+  sheets_.clear();
+  for (const auto& pair : status.values) {
+    Sheet& sheet = sheets_[pair.key];
+    sheet.subscribers = {follow(pair.key + "/statistics", sheet.statistics),
+                         follow(pair.key + "/pressure_map", sheet.map)};
+  }
+}
+
+void PressurePanel::showSheets(fsr::view::PressureUnit unit) {
+  sheets_text_->setVisible(!sheets_.empty());
+  std::vector<SheetOfLimb> sheets;
+  for (const auto& [name, sheet] : sheets_) {
+    sheets.push_back({name, sheet.statistics.fresh() ? sheet.statistics.message : nullptr,
+                      sheet.map.fresh() ? sheet.map.message : nullptr});
+  }
+  sheets_text_->setText(sheets.empty() ? QString() : sheetsText(sheets, unit));
 }
 
 // Keeps what the sensor's calibration node says of the surface, and who publishes it.
@@ -364,6 +406,7 @@ void PressurePanel::refresh() {
                             : QString("none"));
   calibration_->setToolTip(calibration ? QString::fromStdString(calibration->id) : QString());
   showStatistics();
+  showSheets(unit);
   showAlarms();
   showRest();
   showConductor();
@@ -441,8 +484,7 @@ void PressurePanel::showWaiting() {
   want(last_surface_.message != nullptr, "curvature", "the surface is unknown.");
   want(last_session_.fresh(), "session", "events can be marked while record.launch runs.");
   for (const auto& [status, complaint] : complaints_) {
-    if ((ros::WallTime::now() - complaint.received).toSec() < kStale)
-      lines << "Driver: " + text(complaint.sentence);
+    if ((ros::WallTime::now() - complaint.received).toSec() < kStale) lines << text(complaint.sentence);
   }
   waiting_->setText(lines.join("\n"));
 }

@@ -42,8 +42,9 @@ namespace fsr_rviz {
 /// conducted, it also shows the instruction, why the last attempt was rejected, the chamber's pressure beside
 /// its target, the coverage, and the buttons for a person's answers, which stay in their places whatever is
 /// said. All topics are in the sensor's namespace. A number that has not come yet, or not for 3 s, is shown
-/// as "-", and a line below the buttons names the missing node. Services are called in another thread, so
-/// that the window never waits for them.
+/// as "-", and a line below the buttons names the missing node. While limb_node adds up sheets and this
+/// sensor is one of them, a line of sums and one for each sheet come first. Services are called in another
+/// thread, so that the window never waits for them.
 class PressurePanel : public rviz::Panel {
   Q_OBJECT
 
@@ -73,6 +74,9 @@ class PressurePanel : public rviz::Panel {
   };
   void keepComplaints(const diagnostic_msgs::DiagnosticArray& diagnostics);
   void keepRest(const diagnostic_msgs::DiagnosticArray& diagnostics);
+  void keepSheets(const diagnostic_msgs::DiagnosticStatus& status);
+  template <typename Message>
+  ros::Subscriber follow(const std::string& topic, Last<Message>& last);
   template <typename Message>
   void keep(const std::string& topic, Last<Message>& last);
   QLabel* addLine(QGridLayout* grid, const QString& name);
@@ -92,6 +96,7 @@ class PressurePanel : public rviz::Panel {
   void showStatistics();
   void showAlarms();
   void showRest();
+  void showSheets(fsr::view::PressureUnit unit);
   void trigger(const std::string& what, const std::string& service);
   void answer(const std::string& what);
   void maskSelected();
@@ -108,7 +113,7 @@ class PressurePanel : public rviz::Panel {
   QLineEdit* namespace_;
   QComboBox* unit_;
   QLabel *chamber_, *surface_, *session_, *calibration_, *peak_, *mean_, *area_, *force_, *integral_,
-      *alarms_, *rest_;
+      *alarms_, *rest_, *sheets_text_;
   QComboBox *event_kind_, *alarm_region_;
   QLineEdit *event_label_, *alarm_threshold_;
   std::vector<QPushButton*> buttons_;
@@ -139,8 +144,14 @@ class PressurePanel : public rviz::Panel {
   float reply_shown_ = 60;                       // time for which its answer is shown [s]
   QString answered_;                             // instruction to which a person answered; empty = none
   bool calling_ = false;                         // a service is being called
-  std::map<std::string, Complaint> complaints_;  // of the driver's diagnostics, by the name of the status
-  DiagnosticValues rest_values_;                 // of the calibration's diagnostics
+  std::map<std::string, Complaint> complaints_;  // of the diagnostics, by the name of the status
+  struct Sheet {
+    Last<fsr_pressure_map::PressureStatisticsArray> statistics;
+    Last<fsr_pressure_map::PressureMap> map;
+    std::vector<ros::Subscriber> subscribers;
+  };
+  std::map<std::string, Sheet> sheets_;  // of the limb, by namespace; empty = this sensor is its only one
+  DiagnosticValues rest_values_;         // of the calibration's diagnostics
   ros::WallTime rest_received_;
   std::thread caller_;
   std::mutex call_mutex_;

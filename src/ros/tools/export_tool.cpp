@@ -28,7 +28,8 @@ fsr::settings::CommandLine options(const std::vector<ScanFormat>& formats) {
   fsr::settings::CommandLine line("export", "BAG... --to FORMAT --output PATH", purpose.str());
   line.option("to", "FORMAT", "format to write")
       .output("output", "PATH", "file to write; an existing file is replaced")
-      .input("calibration", "FILE", "compute the maps with this calibration instead of using recorded ones")
+      .input("calibration", "FILE",
+             "compute the maps with this calibration instead of using recorded ones; several sheets: A,B")
       .option("from", "S", "start, in seconds since the first scan (0)")
       .option("until", "S", "end, in seconds since the first scan (all)")
       .option("rate", "HZ", "largest number of scans a second (all)")
@@ -48,7 +49,7 @@ ScanSelection selectionOf(const fsr::settings::CommandLine& line) {
   const BagReadOptions how = bagReadOptions(line);
   selection.topics = how.topics;
   selection.map = line.text("map", selection.map);
-  selection.calibration = line.text("calibration", "");
+  selection.calibrations = line.list("calibration");
   selection.ambient = how.ambient_pressure;
   selection.from = line.number("from", 0, {0, 1e9, "s"});
   selection.until = line.number("until", selection.until, {0, 1e9, "s"});
@@ -82,11 +83,23 @@ void writeScans(const ScanFormat& format, const fsr::settings::CommandLine& line
     throw fsr::settings::InputError("--to " + format.name + " takes one file, but " +
                                     std::to_string(line.files().size()) + " are given");
   }
-  const ScanSelection selection = selectionOf(line);
-  const std::unique_ptr<fsr::exports::ScanSink> sink =
-      format.open(line.requiredText("output"), statisticsOf(line, format.name));
+  ScanSelection selection = selectionOf(line);
+  fsr::exports::StatisticsOptions options = statisticsOf(line, format.name);
+  std::vector<std::vector<std::string>> sheets(line.files().size(), {selection.topics});
+  for (std::size_t i = 0; format.several_sheets && i < sheets.size(); ++i) {
+    const std::vector<std::string> found = sheetsIn(line.files()[i], selection);
+    if (found.size() > 0) sheets[i] = found;
+    options.sheets = options.sheets || found.size() > 1;
+  }
+  const std::unique_ptr<fsr::exports::ScanSink> sink = format.open(line.requiredText("output"), options);
   std::size_t scans = 0;
-  for (const std::string& bag : line.files()) scans += sendScans(bag, selection, *sink);
+  for (std::size_t i = 0; i < sheets.size(); ++i) {
+    selection.several_sheets = sheets[i].size() > 1;
+    for (const std::string& sheet : sheets[i]) {
+      selection.topics = sheet;
+      scans += sendScans(line.files()[i], selection, *sink);
+    }
+  }
   if (scans == 0) {
     throw fsr::settings::InputError(line.files().front() +
                                     ": holds no scan between --from and --until; choose a longer interval");

@@ -5,6 +5,7 @@
 #include <fsr_pressure_map/Event.h>
 #include <fsr_pressure_map/Instruction.h>
 #include <fsr_pressure_map/PressureMap.h>
+#include <fsr_pressure_map/PressureStatisticsArray.h>
 #include <gtest/gtest.h>
 #include <ros/callback_queue.h>
 #include <rviz/panel.h>
@@ -109,6 +110,58 @@ TEST_F(Panel, SaysWhichNodesItWaitsFor) {
   EXPECT_TRUE(runUntil([&] { return says("reply", "there is no service /nobody/calibration/tare"); }));
   press("Mark event");
   EXPECT_TRUE(runUntil([&] { return says("reply", "there is no service /nobody/session/mark"); }));
+}
+
+TEST_F(Panel, ShowsTheSheetsOfALimbAndTheirSums) {
+  ros::NodeHandle handle;
+  const auto diagnostics = handle.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10);
+  const auto statistics = [&](const std::string& topic, double peak, double force) {
+    fsr_pressure_map::PressureStatisticsArray array;
+    array.regions.resize(2);
+    array.regions[0].peak = peak;
+    array.regions[0].force = force;
+    array.regions[0].saturated = peak > 300e3 ? 1 : 0;
+    array.regions[0].alarm = array.regions[1].alarm = 3;
+    array.regions[1].region = "toe";
+    if (peak > 300e3) array.regions[1].alarm = fsr_pressure_map::PressureStatistics::ALARM;
+    static std::map<std::string, ros::Publisher> to;
+    if (!to[topic]) to[topic] = handle.advertise<fsr_pressure_map::PressureStatisticsArray>(topic, 10);
+    to[topic].publish(array);
+  };
+  const auto lines = [&](const std::string& words, const std::vector<const char*>& sheets,
+                         const std::string& serial) {
+    return runUntil([&] {
+      diagnostic_msgs::DiagnosticArray array;
+      array.status.resize(1);
+      array.status[0].name = "limb/limb: sheets";
+      array.status[0].level = serial.empty() ? 0 : 2;
+      array.status[0].message = serial;
+      for (const char* sheet : sheets) {
+        array.status[0].values.emplace_back();
+        array.status[0].values.back().key = sheet;
+      }
+      diagnostics.publish(array);
+      statistics("/left/statistics", 200e3, 12.5);
+      statistics("/right/statistics", 402e3, 30);
+      return label("sheets") == words;
+    });
+  };
+  listenTo("/left");
+  auto* shown = panel->findChild<QLabel*>("sheets");
+  ASSERT_NE(shown, nullptr);
+  EXPECT_TRUE(lines("", {"/another", "/third"}, "")) << label("sheets");
+  EXPECT_TRUE(shown->isHidden()) << "not a sheet of that limb";
+  EXPECT_TRUE(
+      lines("all: peak >= 402 kPa, force >= 42.5 N (without back)\n"
+            "back: no statistics, peak -, force -\n"
+            "left: no maps, peak 200 kPa, force 12.5 N\n"
+            "right: ALARM (toe), no maps, peak >= 402 kPa, force >= 30.0 N",
+            {"/back", "/left", "/right"}, "/left and /right have the same serial number"))
+      << label("sheets");
+  EXPECT_FALSE(shown->isHidden());
+  EXPECT_TRUE(says("waiting", "Sheets: /left and /right have the same serial number")) << label("waiting");
+  listenTo("/fsr");
+  EXPECT_TRUE(runUntil([&] { return shown->isHidden(); }));
 }
 
 TEST_F(Panel, ForgetsOldAnswers) {

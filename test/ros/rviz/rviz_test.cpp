@@ -521,6 +521,26 @@ TEST_F(Rviz, FMasksTheTaxelThatIsSelected) {
   EXPECT_EQ(mask, expected);
 }
 
+TEST_F(Rviz, GHoldsThePeakOfEachTaxelUntilReset) {
+  PressureMap low = *map;
+  std::vector<float> peaks = map->pressure;
+  for (float& pressure : low.pressure) pressure = 100e3f;
+  for (float& peak : peaks) peak = std::fmax(peak, 100e3f);
+  display->subProp("Style")->setValue("Cells");
+  set("Peak Hold", true);
+  const auto shows = [](const std::vector<float>& values) {
+    return rightTaxels(values, {}, 2) == values.size();
+  };
+  EXPECT_TRUE(runUntil([&] { return shows(map->pressure); }));
+  EXPECT_TRUE(runUntil([&] { return maps.publish(low), shows(peaks); }, false))
+      << rightTaxels(peaks, {}, 2) << " of the peaks, " << rightTaxels(map->pressure, {}, 2)
+      << " of the map, " << rightTaxels(low.pressure, {}, 2) << " of the last map";
+  display->reset();
+  EXPECT_TRUE(runUntil([&] { return maps.publish(low), shows(low.pressure); }, false));
+  set("Peak Hold", false);
+  EXPECT_TRUE(runUntil([&] { return shows(map->pressure); }));
+}
+
 TEST_F(Rviz, GShowsTheNumbersAndTheWarningInItsPanel) {
   QString all;
   for (const QLabel* label : frame->findChildren<QLabel*>()) all += label->text() + "\n";
@@ -568,8 +588,8 @@ TEST_F(Rviz, IOpensEveryShippedConfiguration) {
   const auto failed = [](const QObject& part) {
     return std::string(typeid(part).name()).find("Failed") != std::string::npos;
   };
-  ros::NodeHandle sensor("/fsr");
-  const auto instructions = sensor.advertise<fsr_pressure_map::Instruction>("instruction", 1, true);
+  const auto instructions = handle->advertise<fsr_pressure_map::Instruction>("/fsr/instruction", 1, true);
+  const auto of_sheet = handle->advertise<fsr_pressure_map::Instruction>("/sheet_1/instruction", 1, true);
   for (const QString& file : files) {
     ASSERT_TRUE(frame->loadDisplayConfigHelper((kConfigs + "/" + file).toStdString(), true));
     for (const QWidget* part : frame->findChildren<QWidget*>())
@@ -582,7 +602,8 @@ TEST_F(Rviz, IOpensEveryShippedConfiguration) {
     const auto* gauge = frame->findChild<QWidget*>("gauge");
     ASSERT_NE(gauge, nullptr);
     const auto conducted = [&] {
-      return instructions.publish(fsr_pressure_map::Instruction()), gauge->isVisible();
+      const fsr_pressure_map::Instruction any;
+      return instructions.publish(any), of_sheet.publish(any), gauge->isVisible();
     };
     EXPECT_TRUE(runUntil(conducted)) << qPrintable(file);
     QApplication::processEvents();

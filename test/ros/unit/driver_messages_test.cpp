@@ -85,4 +85,11 @@ TEST(DriverMessages, DescribesTheMatrix) {
   EXPECT_EQ(fsr_ros::matrixInfo(board, settings).sensor_id, "left");
 }
 
+TEST(SameBoardSentence, NamesTwoSheetsOfOneBoardAndNoneOfUnknownOnes) {
+  EXPECT_EQ(fsr_ros::sameBoardSentence({{"/a", "1"}, {"/b", ""}, {"/c", "2"}, {"/d", ""}}), "");
+  EXPECT_EQ(fsr_ros::sameBoardSentence({{"/a", "1"}, {"/b", "2"}, {"/c", "2"}}),
+            "/b and /c have the same serial number, 2: give each sheet the serial_port of its own board, and "
+            "each board a serial number of its own");
+}
+
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <fsr_pressure_map/Event.h>
 #include <fsr_pressure_map/MatrixFrame.h>
+#include <fsr_pressure_map/MatrixInfo.h>
 #include <fsr_pressure_map/PressureMap.h>
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
@@ -335,6 +336,69 @@ TEST_F(ExportTool, StatisticsNeedMapsAndTheirOwnOptions) {
   EXPECT_NE(said({"statistics", "--above", "50"}).find("--above"), std::string::npos);
   EXPECT_NE(said({"trial", "--unit", "psi"}).find("psi"), std::string::npos);
   EXPECT_FALSE(fs::exists(csv_));
+}
+
+TEST_F(ExportTool, WritesTheRowsOfAllSheetsOfABag) {
+  const std::string maps = withMaps(), two = folder_.path("two.bag"), out = folder_.path("rows.csv");
+  {
+    rosbag::Bag from(maps), to(two, rosbag::bagmode::Write);
+    for (const rosbag::MessageInstance& instance : rosbag::View(from)) {
+      const std::string base = instance.getTopic().substr(4);  // without /fsr
+      to.write("/left" + base, instance.getTime(), instance);
+      // One session node for both, and other maps of the right sheet, which are no third sheet.
+      if (base == "/session" || base == "/events") continue;
+      to.write("/right" + base, instance.getTime(), instance);
+      if (base == "/pressure_map") to.write("/right/flat_only" + base, instance.getTime(), instance);
+    }
+  }
+  EXPECT_EQ(run({two, "--to", "statistics", "--output", out}), "2000 scans written to " + out + "\n");
+  const auto rows = table(out);
+  ASSERT_EQ(rows.at("sheet").size(), 2000u);
+  EXPECT_EQ(rows.at("sheet")[999], "left");
+  EXPECT_EQ(rows.at("sheet")[1000], "right");
+  EXPECT_EQ(rows.at("session")[1000], "s1");
+  EXPECT_EQ(rows.at("event")[1999], "note:wet");
+  run({two, maps, "--to", "trial", "--output", out});
+  auto trial = table(out);
+  std::map<std::pair<std::string, std::string>, int> count;
+  for (std::size_t i = 0; i < trial.at("sheet").size(); ++i) ++count[{trial["bag"][i], trial["sheet"][i]}];
+  EXPECT_EQ(count.size(), 3u);
+  EXPECT_EQ((count[{"two.bag", "right"}]), (count[{"maps.bag", "fsr"}]));
+  run({two, "--to", "trial", "--output", out, "--namespace", "right"});
+  EXPECT_EQ(table(out).count("sheet"), 0u) << "a table of one sheet stays as it is";
+  EXPECT_NE(run({two, "--to", "csv", "--output", csv_}).find("holds several sensors: left, right; choose"),
+            std::string::npos);
+}
+
+TEST_F(ExportTool, TakesTheCalibrationOfEachSheet) {
+  const std::string two = folder_.path("two.bag"), out = folder_.path("rows.csv");
+  {
+    rosbag::Bag from(bag_), to(two, rosbag::bagmode::Write);
+    for (const rosbag::MessageInstance& instance : rosbag::View(from)) {
+      const std::string base = instance.getTopic().substr(4);
+      to.write("/left" + base, instance.getTime(), instance);
+      const auto info = instance.instantiate<fsr_pressure_map::MatrixInfo>();
+      if (info != nullptr) info->serial = "board-2";
+      if (info != nullptr) to.write("/right" + base, instance.getTime(), *info);
+      if (info == nullptr) to.write("/right" + base, instance.getTime(), instance);
+    }
+  }
+  const auto of = [&](const std::string& serial) {
+    auto calibration = test_support::smallCalibration({2, 3}, {0.0, 14.25});
+    calibration.sensor.serial = serial;
+    fsr::calibration::saveCalibration(calibration, folder_.path(serial));
+    return folder_.path(serial);
+  };
+  const std::string first = of("board-1"), second = of("board-2");
+  EXPECT_EQ(run({two, "--to", "statistics", "--output", out, "--calibration", second}),
+            two + ": the sheet left has the board board-1, but --calibration names " + second +
+                " of board-2; give the calibration of each sheet, separated by commas, or choose one sheet "
+                "with --namespace");
+  EXPECT_FALSE(fs::exists(out));
+  run({two, "--to", "statistics", "--output", out, "--calibration", second + "," + first});
+  const auto rows = table(out);
+  EXPECT_EQ(rows.at("sheet").size(), 2000u);
+  for (const std::string& state : rows.at("state")) ASSERT_EQ(state, "OK");
 }
 
 TEST_F(ExportTool, LeavesNoFileWhenTheDiskIsFull) {
