@@ -17,6 +17,7 @@ SCRIPT = pathlib.Path(__file__).resolve().parent.parent.parent / "scripts/align"
 BEGIN = 1.7e9  # stamp of our first scan [s]
 
 
+HEADER = "=" * 80 + "\nMSG: std_msgs/Header\nuint32 seq\ntime stamp\nstring frame_id\n"
 STAND_IN = """
 import numpy
 def c3d(path):
@@ -29,8 +30,7 @@ def c3d(path):
 def event_class():
     """Event.msg of this source tree."""
     definition = (SCRIPT.parent.parent / "msg/Event.msg").read_text()
-    header = "=" * 80 + "\nMSG: std_msgs/Header\nuint32 seq\ntime stamp\nstring frame_id\n"
-    classes = generate_dynamic("fsr_pressure_map/Event", definition + header)
+    classes = generate_dynamic("fsr_pressure_map/Event", definition + HEADER)
     return classes["fsr_pressure_map/Event"], classes["std_msgs/Header"]
 
 
@@ -79,7 +79,7 @@ class Align(unittest.TestCase):
             for k, (t, y) in enumerate(zip(theirs, force + random.normal(0, 2 if course == load else 0.5, len(theirs)))):
                 file.write(f"{k};{t:.4f};{-0.9 * y + 30:.3f};{true[k]:.6f}\n")
 
-    def make_pulses(self, offset=12.3456, ppm=80, seed=1, period=None, seconds=120):
+    def make_pulses(self, offset=12.3456, ppm=80, seed=1, period=None, seconds=60):
         """Pulses of 20 ms that both saw, some of them one only; ours are events with a jitter of 0.1 ms."""
         random = np.random.default_rng(seed)
         ours = np.arange(0, seconds, 0.1)
@@ -120,13 +120,13 @@ class Align(unittest.TestCase):
 
     def test_offset_and_rate_are_found_within_their_intervals(self):
         covered = []
-        for seed in range(5):
+        for seed in range(4):
             self.make(offset=12 + 0.37 * seed, ppm=30 * seed - 100, seed=seed)
             ran = self.run_script()
             covered += self.check(ran, 12 + 0.37 * seed, 30 * seed - 100, 40, 0.0005)
             self.assertIn("opposite signs", ran.stdout)
             (self.folder / "aligned.csv").unlink()
-        self.assertGreaterEqual(sum(covered), 8, "of 10 intervals of 95 %")
+        self.assertGreaterEqual(sum(covered), 6, "of 8 intervals of 95 %")
 
     def test_taps_on_the_sheet_are_found(self):
         covered = []
@@ -139,22 +139,33 @@ class Align(unittest.TestCase):
     def test_pulses_at_the_trigger_are_paired_without_a_force(self):
         covered = []
         for seed in range(3):
-            pulses = self.make_pulses(offset=-20 + 30 * seed, ppm=100 * seed - 100, seed=seed)
+            pulses = self.make_pulses(offset=-10 + 15 * seed, ppm=100 * seed - 100, seed=seed)
             ran = self.run_script(signal=pulses)
-            covered += self.check(ran, -20 + 30 * seed, 100 * seed - 100, 120, 0.0006)
+            covered += self.check(ran, -10 + 15 * seed, 100 * seed - 100, 60, 0.0006)
             self.assertRegex(ran.stdout, r"\d+ of \d+ pulses agree\n")
             (self.folder / "aligned.csv").unlink()
         self.assertGreaterEqual(sum(covered), 5, "of 6 intervals of at least 95 %")
 
     def test_falling_edges_may_be_their_rising_ones(self):
-        self.check(self.run_script("--inverted", signal=self.make_pulses()), 12.3456 - 0.02, 80, 120, 0.0006)
+        self.check(self.run_script("--edges", "falling", signal=self.make_pulses()), 12.3456 - 0.02, 80, 60, 0.0006)
+
+    def test_pulses_of_the_trigger_output_are_scans(self):
+        definition = "Header header\nuint32 sequence\n" + HEADER
+        classes = generate_dynamic("fsr_pressure_map/MatrixFrame", definition)
+        pulses = self.make_pulses(period=2)
+        with rosbag.Bag(self.folder / "ours.bag", "w") as bag:
+            for k in range(51, 2951):  # the middle of scan 100 is 7.01 s behind the begin
+                stamp = rospy.Time.from_sec(BEGIN + 5.01 + 0.02 * k)
+                bag.write("/fsr/raw", classes["fsr_pressure_map/MatrixFrame"](classes["std_msgs/Header"](0, stamp, ""), k), stamp)
+        ran = self.run_script("--near", str(12 - BEGIN), "--within", "0.8", "--edges", "output", signal=pulses)
+        self.check(ran, 12.3456, 80, 60, 0.0006)
 
     def test_equal_pulses_need_a_place(self):
         pulses = self.make_pulses(period=2)
         ran = self.run_script(signal=pulses)
         self.assertEqual(ran.returncode, 2)
         self.assertRegex(ran.stderr, r"^align: the pulses fit at offsets of .* alike; give --near SECONDS\n$")
-        self.check(self.run_script("--near", str(12 - BEGIN), signal=pulses), 12.3456, 80, 120, 0.0006)
+        self.check(self.run_script("--near", str(12 - BEGIN), signal=pulses), 12.3456, 80, 60, 0.0006)
 
     def test_pulses_that_are_missing_or_elsewhere_are_refused(self):
         pulses = self.make_pulses()
@@ -163,7 +174,7 @@ class Align(unittest.TestCase):
         self.assertIn("the pulses of the two systems do not overlap in time at --near", self.run_script("--near", "0", signal=pulses).stderr)
         with rosbag.Bag(self.folder / "ours.bag", "w"):
             pass
-        self.assertIn("ours.bag: has 0 events of a rising trigger, but 3 are needed", self.run_script(signal=pulses).stderr)
+        self.assertIn("ours.bag: has 0 rising pulses of the trigger, but 3 are needed", self.run_script(signal=pulses).stderr)
         (self.folder / "ours.bag").write_bytes(b"no bag")
         self.assertIn("ours.bag: is no complete bag", self.run_script(signal=pulses).stderr)
         self.assertEqual(list(self.folder.glob("aligned.csv*")), [])
