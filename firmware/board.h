@@ -13,7 +13,7 @@
 #error "ROWS, COLUMNS, BAUD, PERIOD, SETTLING_US, ADC_PRESCALER, RING and F_CPU must be set; see the Makefile"
 #endif
 
-#define FIRMWARE_VERSION "1.0.0"
+#define FIRMWARE_VERSION "1.1.0"
 
 /* Rows are driven high one after another, all others are low: row 0 to 7 = PA0 to PA7 (pins 22 to 29), row 8
  * to 15 = PC7 to PC0 (pins 30 to 37). Columns are read by ADC0 to ADC13 (pins A0 to A13). */

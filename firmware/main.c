@@ -11,6 +11,7 @@
 #include "identity.h"
 #include "restart.h"
 #include "scan.h"
+#include "trigger.h"
 #include "uart.h"
 
 #define SECOND_US 1000000u
@@ -84,10 +85,18 @@ static void send_temperature(const reference* reading, uint32_t sequence) {
   warmth.sum = warmth.samples = 0;
 }
 
-/* Sleeps until an interrupt, unless a frame is ready already. */
+static void send_trigger(void) {
+  trigger_edge edge;
+  ATOMIC_BLOCK(ATOMIC_RESTORESTATE) {
+    edge = trigger_take();
+  }
+  send(fsr_wire_encode_trigger(packet, sizeof packet, edge.number, edge.time_us, edge.high, edge.deviation_us));
+}
+
+/* Sleeps until an interrupt, unless a frame is ready already, and sends edges of the trigger meanwhile. */
 static const scan_frame* next_frame(void) {
   for (;;) {
-    cli();
+    while (trigger_waiting > 0) send_trigger();
     const scan_frame* frame = scan_take();
     if (frame != NULL) {
       sei();
@@ -107,6 +116,7 @@ int main(void) {
   DDRB = LED;
   uart_start();
   clock_start();
+  trigger_start();
   scan_start();
   restart_watch();
   sei();

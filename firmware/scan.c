@@ -5,6 +5,7 @@
 #include <stddef.h>
 
 #include "clock.h"
+#include "trigger.h"
 
 /* The timer compares 16 bits (32.8 ms). A longer period is waited for in SLICES equal parts and a rest. */
 #define PERIOD_TICKS ((uint32_t)PERIOD * TICKS_PER_US)
@@ -38,6 +39,7 @@ static uint8_t row, column, samples;
 static uint16_t* next_count;
 static uint32_t number;
 static uint8_t slices_left;
+static uint8_t until_pulse; /* scans until the next one with a pulse at the output */
 
 static void drive_row(uint8_t selected) {
   uint8_t a = 0, c = 0;
@@ -75,11 +77,14 @@ static void begin_row(void) {
 ISR(TIMER3_COMPA_vect) { /* the row has settled */
   TIMSK3 = 0;
   start_conversion();
-  if (row == 0) frame->first_us = clock_us() + HOLD_US;
+  if (row != 0) return;
+  frame->first_us = clock_us() + HOLD_US;
+  if (until_pulse == TRIGGER_OUT_EVERY - 1) TRIGGER_OUT_PORT |= TRIGGER_OUT;
 }
 
 static void begin_scan(void) {
   const uint32_t this_one = number++;
+  if (until_pulse-- == 0) until_pulse = TRIGGER_OUT_EVERY - 1;
   if (phase != IDLE) return; /* PERIOD is too short for the converter */
   frame->number = this_one;
   next_count = frame->counts;
@@ -113,17 +118,23 @@ static void hand_over(void) {
   frame = &frames[filling];
 }
 
+/* The last taxel is being read. */
+static void end_matrix(uint8_t hold_us) {
+  frame->last_us = clock_us() + hold_us;
+  TRIGGER_OUT_PORT &= (uint8_t)~TRIGGER_OUT;
+}
+
 static void read_taxel(uint16_t code) {
   *next_count++ = code;
   if (++column < COLUMNS) {
     select_input(column);
     start_conversion();
-    if (column == COLUMNS - 1 && row == ROWS - 1) frame->last_us = clock_us() + HOLD_US;
+    if (column == COLUMNS - 1 && row == ROWS - 1) end_matrix(HOLD_US);
   } else if (++row < ROWS) {
     begin_row();
   } else {
 #if COLUMNS == 1
-    frame->last_us = clock_us();
+    end_matrix(0);
 #endif
     drive_none();
     frame->transducer = 0;

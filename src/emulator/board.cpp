@@ -51,6 +51,7 @@ std::vector<std::uint8_t>& Board::next(const Pressure& pressure) {
   packet_.resize(encode(kind, sources_[kind].time(), pressure));
   ++sources_[kind].number;
   ++sources_[kind].sequence;
+  if (kind == kTrigger) sources_[kind].period = 0;  // until the next edge
   return packet_;
 }
 
@@ -64,6 +65,9 @@ std::size_t Board::encode(Kind kind, double time, const Pressure& pressure) {
       return fsr_wire_encode_transducer(
           packet_.data(), packet_.size(), sequence, device_time,
           transducer_ == TransducerLine::kUnplugged ? 0 : rig_.transducer(time, pressure));
+    case kTrigger:
+      return fsr_wire_encode_trigger(packet_.data(), packet_.size(), sequence, device_time,
+                                     trigger_high_ ? 1 : 0, 1);  // the clock counts us
     case kTemperature:
       return fsr_wire_encode_temperature(
           packet_.data(), packet_.size(), sequence, device_time,
@@ -111,6 +115,14 @@ void Board::setTransducer(TransducerLine line, double time) {
   // The readings that were left out are not sent late.
   const auto missed = std::ceil((time - source.start) / interval);
   source.number = std::max(source.number, static_cast<std::uint64_t>(std::max(missed, 0.0)));
+}
+
+void Board::setTrigger(bool high, double time) {
+  trigger_high_ = high;
+  Source& source = sources_[kTrigger];
+  source.start = time;
+  source.number = 0;
+  source.period = 1;
 }
 
 void Board::reset(double time) {

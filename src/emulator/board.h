@@ -49,6 +49,9 @@ class Board {
   };
   void setTransducer(TransducerLine line, double time);
 
+  /// Sets the trigger input: an edge at `time`, sent at once.
+  void setTrigger(bool high, double time);
+
   /// Switches the board off and on at `time`: clock and counters restart.
   void reset(double time);
 
@@ -66,7 +69,7 @@ class Board {
   double bitsPerSecond() const;
 
  private:
-  enum Kind { kIdentity, kTemperature, kTransducer, kScan, kKinds };
+  enum Kind { kIdentity, kTemperature, kTransducer, kScan, kTrigger, kKinds };
   /// Packets of one kind are sampled at `start` + `number` * `period` and sent `delay` later.
   struct Source {
     double start = 0;          // [s rig time]
@@ -89,6 +92,7 @@ class Board {
   std::array<Source, kKinds> sources_;
   double switched_on_ = 0;  // [s rig time]
   TransducerLine transducer_ = TransducerLine::kWorks;
+  bool trigger_high_ = false;
   std::vector<std::size_t> lost_taxels_;
   std::vector<std::uint16_t> counts_;  // of a scan with lost taxels
   std::vector<std::uint8_t> packet_;

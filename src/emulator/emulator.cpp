@@ -338,6 +338,13 @@ void Emulator::setDamage(const LineDamage& damage) {
   damage_ = damage;
 }
 
+void Emulator::setTrigger(bool high) {
+  const Turn turn(*this);
+  catchUp();
+  board_.setTrigger(high, time_);
+  sendNext();
+}
+
 void Emulator::resetBoard() {
   const Turn turn(*this);
   catchUp();

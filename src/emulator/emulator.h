@@ -164,6 +164,8 @@ class Emulator {
   void instruct(const Task& task);
   /// Sets the damage of the line from now on; LineDamage{} ends it. Throws InputError.
   void setDamage(const LineDamage& damage);
+  /// Makes an edge at the board's trigger input.
+  void setTrigger(bool high);
   /// Switches the board off and on.
   void resetBoard();
   /// Makes the board's clock jump by `seconds`, forwards or backwards.

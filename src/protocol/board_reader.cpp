@@ -36,6 +36,10 @@ void HandlerGuard::onIdentity(const PacketHeader& header, const IdentityPacket& 
   run("handling an identity", [&] { handler_.onIdentity(header, identity); });
 }
 
+void HandlerGuard::onTrigger(const PacketHeader& header, const TriggerPacket& trigger) {
+  run("handling a trigger", [&] { handler_.onTrigger(header, trigger); });
+}
+
 void HandlerGuard::note(const char* task) {
   ++faults_;
   complaint_ = std::string(task) + " failed in this program, not on the link: " + reason();

@@ -29,6 +29,7 @@ class HandlerGuard final : public PacketHandler {
   void onTransducer(const PacketHeader& header, std::int32_t counts) override;
   void onTemperature(const PacketHeader& header, std::int32_t millidegrees) override;
   void onIdentity(const PacketHeader& header, const IdentityPacket& identity) override;
+  void onTrigger(const PacketHeader& header, const TriggerPacket& trigger) override;
 
   /// Calls `call` and catches what it throws. `task`: what failed then, e.g. "handling a scan".
   template <typename Call>

@@ -61,9 +61,9 @@ PacketTime PacketStamper::scan(const PacketHeader& header, std::uint32_t duratio
   return finish(PacketType::kScan, clock_.observe(header.device_time, receive_time_, known_delay));
 }
 
-PacketTime PacketStamper::transducer(const PacketHeader& header) {
-  return finish(PacketType::kTransducer,
-                clock_.observe(header.device_time, receive_time_, timeOnTheLine(header.size)));
+// Of a packet that is sent soon after its device time.
+PacketTime PacketStamper::soon(PacketType type, const PacketHeader& header) {
+  return finish(type, clock_.observe(header.device_time, receive_time_, timeOnTheLine(header.size)));
 }
 
 PacketTime PacketStamper::temperature(const PacketHeader& header) {

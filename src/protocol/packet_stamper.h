@@ -30,7 +30,8 @@ class PacketStamper {
   /// do not overlap: a duration longer than the time from scan to scan is replaced by the last good one. That
   /// of the first scan is judged with the second one; if it cannot be, the estimate of the clock restarts.
   PacketTime scan(const PacketHeader& header, std::uint32_t duration);
-  PacketTime transducer(const PacketHeader& header);
+  PacketTime transducer(const PacketHeader& header) { return soon(PacketType::kTransducer, header); }
+  PacketTime trigger(const PacketHeader& header) { return soon(PacketType::kTrigger, header); }
   /// Does not update the clock, because a temperature may be sent long after it was measured.
   PacketTime temperature(const PacketHeader& header);
 
@@ -43,10 +44,11 @@ class PacketStamper {
   std::optional<double> periodBefore(const PacketHeader& header) const;
   bool isPossible(std::uint32_t duration, std::optional<double> period) const;
   std::uint32_t possibleDuration(const PacketHeader& header, std::uint32_t duration);
+  PacketTime soon(PacketType type, const PacketHeader& header);
   PacketTime finish(PacketType type, std::uint64_t device_time);
 
   DeviceClock clock_;
-  std::array<StampSequence, 3> sequences_;  // by PacketType
+  std::array<StampSequence, kPacketTypes> sequences_;  // by PacketType
   std::uint32_t baud_ = 0;
   std::int64_t receive_time_ = 0;
   bool scanned_ = false;  // a scan has come over this line

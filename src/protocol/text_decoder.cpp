@@ -1,6 +1,7 @@
 #include "protocol/text_decoder.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 
 #include "fsr_pressure_map/settings/input_error.h"
@@ -11,7 +12,8 @@ namespace {
 // More than a sketch needs for a number with its separator and blanks, and for the names of a short header.
 constexpr std::size_t kBytesForANumber = 16;
 constexpr std::size_t kBytesForALine = 256;
-constexpr std::size_t kDigits = 18;  // a number of that many fits 64 bits
+constexpr std::int64_t kLongestDeviation = 4'000'000;  // of a trigger [ticks]: fits 32 bits of us
+constexpr std::size_t kDigits = 18;                    // a number of that many fits 64 bits
 
 bool isBlank(char c) {
   return c == ' ' || c == '\t';
@@ -99,21 +101,23 @@ void TextDecoder::take(std::uint8_t byte) {
   if (state_ == State::kCut || state_ == State::kDropped) ++counts_.skipped_bytes;
   ++length_;
   if (byte == '\n') return endLine();
-  if (state_ != State::kReading) return;
-  if (length_ == 1 && byte == '#') {
-    state_ = State::kComment;
-  } else if (!isAscii(byte)) {
+  if (length_ == 1 && byte == '#' && state_ == State::kReading) state_ = State::kComment;
+  const bool fits = length_ <= line_.size();
+  if (state_ == State::kReading && !isAscii(byte)) {
     drop(counts_.lines.not_ascii);
-  } else if (length_ > line_.size()) {
+  } else if (state_ == State::kReading && !fits) {
     drop(counts_.lines.too_long);
-  } else {
+  } else if (fits) {
     line_[length_ - 1] = static_cast<char>(byte);
   }
 }
 
 void TextDecoder::endLine() {
   if (state_ == State::kCut) ++counts_.lines.cut;
-  if (state_ == State::kComment) ++counts_.lines.without_numbers;
+  if (state_ == State::kComment) {
+    ++counts_.lines.without_numbers;
+    readComment({line_.data(), std::min(length_ - 1, line_.size())});
+  }
   if (state_ == State::kReading) read({line_.data(), length_ - 1});
   state_ = State::kReading;
   length_ = 0;
@@ -176,6 +180,23 @@ void TextDecoder::deliver() {
   if (!options_.transducer) return;
   ++counts_.of(PacketType::kTransducer).packets;
   handler_.onTransducer(header, static_cast<std::int32_t>(numbers_.back()));
+}
+
+// `#trigger,TIME,HIGH,DEVIATION`, times in ticks. Every other comment is passed over.
+void TextDecoder::readComment(std::string_view line) {
+  if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+  if (takeField(line, ',') != "#trigger") return;
+  std::array<std::int64_t, 3> fields{};
+  for (std::int64_t& field : fields) {
+    const std::optional<std::int64_t> number = toNumber(takeField(line, ','));
+    if (!number || *number < 0) return;
+    field = *number;
+  }
+  const auto [time, high, deviation] = fields;
+  if (!line.empty() || high > 1 || deviation > kLongestDeviation) return;
+  ++counts_.of(PacketType::kTrigger).packets;
+  handler_.onTrigger({++triggers_, static_cast<std::uint32_t>(time) * options_.tick, length_},
+                     {high == 1, static_cast<std::uint32_t>(deviation) * options_.tick});
 }
 
 // A line that looks like noise. False, as refuse().

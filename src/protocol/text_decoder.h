@@ -12,8 +12,9 @@ namespace fsr::protocol {
 /// Decoder of lines `time,count,count,...`, one for each scan (docs/text_format.md).
 ///
 /// A line has no checksum, so only its form can be checked: a scan is delivered where a whole line has the
-/// right number of whole numbers and no count above the full scale. The search for the next line begins
-/// behind the next newline. The first line of a stream may have lost its start and is dropped.
+/// right number of whole numbers and no count above the full scale. A comment may be an edge of the trigger.
+/// The search for the next line begins behind the next newline. The first line of a stream may have lost its
+/// start and is dropped.
 ///
 /// The scans are numbered here. A damaged line takes a number, too, so that the gap is seen behind it; a line
 /// that is lost without a trace takes none.
@@ -31,7 +32,7 @@ class TextDecoder final : public Decoder {
     kCut,      ///< the line may have lost its start
     kReading,  ///< all of the line is in line_
     kDropped,  ///< the line is damaged, and its cause is counted
-    kComment,
+    kComment,  ///< as much as fits is in line_
   };
 
   void take(std::uint8_t byte);
@@ -39,6 +40,7 @@ class TextDecoder final : public Decoder {
   void read(std::string_view line);
   bool isScan(std::size_t numbers, bool sign);
   void deliver();
+  void readComment(std::string_view line);
   bool drop(std::uint64_t& cause);
   bool refuse(std::uint64_t& cause);
 
@@ -53,6 +55,7 @@ class TextDecoder final : public Decoder {
   std::vector<std::uint16_t> scan_counts_;
   std::uint32_t sequence_ = 0;  // of the last scan
   std::uint32_t damaged_ = 0;   // lines since then
+  std::uint32_t triggers_ = 0;
 };
 
 }  // namespace fsr::protocol

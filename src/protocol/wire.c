@@ -103,6 +103,15 @@ size_t fsr_wire_encode_identity(uint8_t* out, size_t capacity, uint32_t sequence
   return end_packet(out, at);
 }
 
+size_t fsr_wire_encode_trigger(uint8_t* out, size_t capacity, uint32_t sequence, uint32_t time_us,
+                               uint8_t high, uint32_t deviation_us) {
+  uint8_t* at;
+  if (capacity < packet_size(FSR_WIRE_TRIGGER_PAYLOAD)) return 0;
+  at = begin_packet(out, FSR_WIRE_TRIGGER, FSR_WIRE_TRIGGER_PAYLOAD, sequence, time_us);
+  at = put8(at, high != 0);
+  return end_packet(out, put32(at, deviation_us));
+}
+
 uint16_t fsr_wire_crc16(const uint8_t* bytes, size_t size) {
   uint16_t crc = 0xFFFFu;
   size_t i;

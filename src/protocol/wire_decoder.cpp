@@ -23,13 +23,13 @@ std::string_view getText(const std::uint8_t* at) {
   return {text, strnlen(text, FSR_WIRE_TEXT_SIZE)};
 }
 
-static_assert(FSR_WIRE_IDENTITY - FSR_WIRE_SCAN + 1 == kPacketTypes &&
+static_assert(FSR_WIRE_TRIGGER - FSR_WIRE_SCAN + 1 == kPacketTypes &&
                   FSR_WIRE_TRANSDUCER - FSR_WIRE_SCAN == static_cast<unsigned>(PacketType::kTransducer) &&
                   FSR_WIRE_TEMPERATURE - FSR_WIRE_SCAN == static_cast<unsigned>(PacketType::kTemperature),
               "the wire format numbers the packet types in the order of PacketType");
 
 bool typeIsKnown(unsigned type) {
-  return type >= FSR_WIRE_SCAN && type <= FSR_WIRE_IDENTITY;
+  return type >= FSR_WIRE_SCAN && type <= FSR_WIRE_TRIGGER;
 }
 
 PacketType typeOf(const std::uint8_t* packet) {
@@ -42,6 +42,8 @@ bool lengthFits(unsigned type, std::size_t length) {
       return length % 2 == 0 && length > FSR_WIRE_SCAN_HEAD_SIZE && length <= FSR_WIRE_MAX_PAYLOAD;
     case FSR_WIRE_IDENTITY:
       return length == FSR_WIRE_IDENTITY_PAYLOAD;
+    case FSR_WIRE_TRIGGER:
+      return length == FSR_WIRE_TRIGGER_PAYLOAD;
     default:
       return length == FSR_WIRE_TRANSDUCER_PAYLOAD;  // as long as a temperature's
   }
@@ -170,6 +172,11 @@ bool WireDecoder::deliverContent(PacketType type, const PacketHeader& header, co
                                  std::size_t size) {
   if (type == PacketType::kScan) return deliverScan(header, payload, size);
   if (type == PacketType::kIdentity) return deliverIdentity(header, payload);
+  if (type == PacketType::kTrigger) {
+    if (payload[0] > 1) return false;
+    handler_.onTrigger(header, {payload[0] == 1, get32(payload + 1)});
+    return true;
+  }
   const auto value = static_cast<std::int32_t>(get32(payload));
   if (type == PacketType::kTransducer) {
     handler_.onTransducer(header, value);

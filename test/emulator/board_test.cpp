@@ -61,6 +61,17 @@ TEST(Board, HasAClockWithOffsetAndDriftThatWrapsInPackets) {
   EXPECT_EQ(lines.back(), "scan #1 @32804 1x2 full 4095 took 0 counts 0 0");
 }
 
+TEST(Board, SendsAnEdgeOfItsTriggerAtOnce) {
+  Board board(smallRig("{scan_rate: 4, transducer_rate: 0}"), {});
+  packetsUntil(board, 0.3);
+  board.setTrigger(true, 0.31);
+  const std::vector<std::string> expected = {"trigger #0 @310000 rising +- 1",
+                                             "scan #2 @500000 1x2 full 4095 took 0 counts 0 0"};
+  EXPECT_EQ(packetsUntil(board, 0.5), expected);
+  board.setTrigger(false, 0.6);
+  EXPECT_EQ(packetsUntil(board, 0.6).front(), "trigger #1 @600000 falling +- 1");
+}
+
 TEST(Board, StartsAgainWhenReset) {
   Board board(smallRig("{scan_rate: 2, transducer_rate: 0, serial: A7, model: m}"), {});
   packetsUntil(board, 10.2);

@@ -9,11 +9,12 @@
 //       --link PATH         sends them to a pseudo-terminal behind this link instead
 //       --log FILE          writes what happened, one line each: "start CYCLE" when row 0 is driven,
 //                           "scan CYCLE COUNT..." with what was fed, "restart CYCLE CAUSE",
+//                           "in CYCLE LEVEL" and "out CYCLE LEVEL" of the trigger pins,
 //                           "end CYCLE BUSY" with the cycles in which the processor did not sleep
 //       --seconds S         ends after this simulated time; without it: never
 //       --pace N            seconds of simulated time in a second; without it: as fast as possible
 //       --event S:CAUSE     at S seconds: reset, brown-out, stray (the program runs into an endless loop) or
-//                           converter (the converter stands still)
+//                           converter (the converter stands still); 1 or 0: level of the trigger input
 //       --clock yes         prints the simulated time [s] every 10 ms
 //
 // The simulator, simavr, is under the GPL, and so is a program that links it. This one is a helper of tests;
@@ -162,8 +163,11 @@ class Board {
     } else if (cause == "converter") {
       avr_->data[kAdcsra] = 0;
       note(cause);
+    } else if (cause == "1" || cause == "0") {
+      avr_raise_irq(avr_io_getirq(avr_, AVR_IOCTL_IOPORT_GETIRQ('L'), 0), cause == "1" ? 1 : 0);
+      note("in", cause);
     } else {
-      throw InputError("--event " + cause + " must be reset, brown-out, stray or converter");
+      throw InputError("--event " + cause + " must be reset, brown-out, stray, converter, 1 or 0");
     }
   }
 
@@ -198,6 +202,9 @@ class Board {
     });
     listen(AVR_IOCTL_IOPORT_GETIRQ('A'), 0, [](avr_irq_t*, std::uint32_t value, void* board) {
       if (value != 0) static_cast<Board*>(board)->note("start");
+    });
+    listen(AVR_IOCTL_IOPORT_GETIRQ('G'), 5, [](avr_irq_t* pin, std::uint32_t value, void* board) {
+      if (value != pin->value) static_cast<Board*>(board)->note("out", std::to_string(value));
     });
     listen(AVR_IOCTL_ADC_GETIRQ, ADC_IRQ_OUT_TRIGGER,
            [](avr_irq_t*, std::uint32_t, void* board) { static_cast<Board*>(board)->convert(); });

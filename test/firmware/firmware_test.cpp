@@ -55,7 +55,12 @@ class Received : public fsr::protocol::PacketHandler {
     period = identity.scan_period;
   }
 
+  void onTrigger(const PacketHeader& header, const fsr::protocol::TriggerPacket& trigger) override {
+    triggers.emplace_back(header, trigger);
+  }
+
   std::vector<Scan> scans;
+  std::vector<std::pair<PacketHeader, fsr::protocol::TriggerPacket>> triggers;
   std::vector<std::pair<PacketHeader, std::int32_t>> transducer, temperatures;
   std::vector<std::string> serials, models;
   std::vector<std::uint32_t> identity_times;
@@ -68,6 +73,7 @@ class Received : public fsr::protocol::PacketHandler {
 struct Log {
   std::vector<double> starts;                      // row 0 is driven [cycles]
   std::vector<std::vector<std::uint16_t>> counts;  // that were fed
+  std::vector<double> in, out;                     // edges of the trigger pins [us of the simulator]
 };
 
 struct Session {
@@ -150,6 +156,8 @@ class Firmware : public testing::Test {
       double cycle = 0;
       words >> kind >> cycle;
       if (kind == "start") log.starts.push_back(cycle);
+      if (kind == "in") log.in.push_back(cycle / kCyclesPerMicrosecond);
+      if (kind == "out") log.out.push_back(cycle / kCyclesPerMicrosecond);
       if (kind != "scan") continue;
       log.counts.emplace_back();
       for (std::uint16_t count = 0; words >> count;) log.counts.back().push_back(count);
@@ -254,6 +262,78 @@ TEST_F(Firmware, TheStampIsTheMiddleOfTheScan) {
   // The transducer is read right behind the matrix.
   EXPECT_NEAR(session.received.transducer[20].first.device_time - scan.header.device_time,
               scan.duration / 2 + 900, 100);
+}
+
+std::string edge(double time, bool high) {
+  std::ostringstream option;
+  option << std::fixed << " --event " << time << (high ? ":1" : ":0");
+  return option.str();
+}
+
+/// The simulator's time less the board's [us]: scans begin with a settled row.
+double clockOffset(const Session& session) {
+  double least = INFINITY;
+  for (std::size_t i = 0; i < session.received.scans.size(); ++i) {
+    const Scan& scan = session.received.scans[i];
+    const double first = scan.header.device_time - scan.duration / 2 - 50 - 12;
+    least = std::min(least, session.log.starts.at(i) / kCyclesPerMicrosecond - first);
+  }
+  return least;
+}
+
+TEST_F(Firmware, StampsEdgesAtTheTriggerWithinTheStatedDeviation) {
+  build("");
+  std::string edges;
+  for (int i = 0; i < 60; ++i) edges += edge(0.2 + 0.0123456 * i, i % 2 == 1);  // all over the scan
+  const Session session = run("--seconds 1.2" + edges);
+  expectNothingLost(session);
+  const auto& triggers = session.received.triggers;
+  ASSERT_EQ(triggers.size(), 60u);
+  double least = INFINITY, most = -INFINITY;
+  for (std::size_t i = 0; i < triggers.size(); ++i) {
+    const auto& [header, trigger] = triggers[i];
+    EXPECT_EQ(header.sequence, i);
+    EXPECT_EQ(trigger.high, i % 2 == 1);
+    EXPECT_EQ(trigger.deviation, 2u);
+    const double error = header.device_time + clockOffset(session) - session.log.in.at(i);
+    least = std::min(least, error);
+    most = std::max(most, error);
+  }
+  std::cout << "stamps of edges: " << least << " to " << most << " us beside the edge\n";
+  EXPECT_LE(most - least, 4);
+  EXPECT_LT(std::abs(least), 15);  // what is known of the offset of the clocks
+  const auto [early, late] = jitter(session.log.starts, 20000);
+  std::cout << "starts of scans: " << early << " to " << late << " us from an even beat\n";
+  EXPECT_LT(late - early, 20);
+}
+
+TEST_F(Firmware, CountsAnEdgeThatBouncesOnceAndAShortPulseTwice) {
+  build("");
+  std::string edges;
+  for (int i = 0; i < 9; ++i) edges += edge(0.3 + 0.0004 * i, i % 2 == 1);  // a switch that closes
+  edges += edge(0.4, true) + edge(0.5, false) + edge(0.501, true);          // a pulse of 1 ms
+  const Session session = run("--seconds 0.8" + edges);
+  const auto& triggers = session.received.triggers;
+  ASSERT_EQ(triggers.size(), 4u);
+  const std::vector<std::size_t> at = {0, 9, 10, 11};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto& [header, trigger] = triggers[i];
+    EXPECT_EQ(trigger.high, i % 2 == 1);
+    EXPECT_EQ(trigger.deviation, i == 3 ? 2500u : 2u);
+    EXPECT_NEAR(header.device_time + clockOffset(session), session.log.in.at(at[i]), trigger.deviation + 15);
+  }
+}
+
+TEST_F(Firmware, ThePulseAtTheTriggerOutputHasTheStampOfItsScanInTheMiddle) {
+  build("PERIOD=12000");
+  const Session session = run("--seconds 3");
+  const auto& out = session.log.out;
+  ASSERT_EQ(out.size(), 6u);  // scans 0, 100 and 200
+  for (std::size_t i = 0; i < 3; ++i) {
+    const PacketHeader& header = session.received.scans.at(100 * i).header;
+    EXPECT_EQ(header.sequence, 100 * i);
+    EXPECT_NEAR((out[2 * i] + out[2 * i + 1]) / 2 - clockOffset(session), header.device_time, 30);
+  }
 }
 
 TEST_F(Firmware, ScansStartInAnEvenBeat) {

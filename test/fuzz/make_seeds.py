@@ -43,7 +43,7 @@ def wire():
     others = packet(2, 1, 10000, struct.pack("<i", 1200)) + packet(3, 1, 10000, struct.pack("<i", 23000))
     identity = packet(4, 1, 10000, b"FSR-0042".ljust(16, b"\0") + b"1.2.0".ljust(16, b"\0") + b"seed".ljust(16, b"\0")
                       + struct.pack("<BBHI", 2, 3, 4095, 10000))
-    return scans + others + identity
+    return scans + others + identity + packet(5, 1, 12345, struct.pack("<BI", 1, 2))
 
 
 def capture(data):
@@ -124,7 +124,7 @@ def bag(name, packing="none"):
 
 write("decoder", "every_type", wire())
 write("decoder", "cut_and_again", wire()[:40] + wire())
-write("text", "comma_and_header", b"\x000,1\r\ntime,a,b,c\r\n# note\r\n12,0,512,1023\r\n13,9,8,7\r\n")
+write("text", "comma_and_header", b"\x000,1\r\ntime,a,b,c\r\n# note\r\n#trigger,12,1,1\r\n12,0,512,1023\r\n13,9,8,7\r\n")
 write("text", "blanks_and_transducer", b"\x02\n12 0  512 1023 -70000 \n13\t9\t8\t7\t6\n14; 1; 2; 3; 4;\n")
 write("text", "seven_by_ten", b"\x01\n" + b"".join(b"%d," % number for number in range(71)) + b"\n")
 write("capture", "every_type", capture(wire()))

@@ -34,7 +34,8 @@ std::vector<std::string> packets(const fsr::protocol::DecoderOptions& options, c
   const fsr::protocol::DecoderCounts& counts = decoder.counts();
   const std::size_t each = options.transducer ? 2 : 1;
   fuzz::require(counts.bytes == size && counts.skipped_bytes <= size);
-  fuzz::require(checker.lines.size() == each * counts.of(fsr::protocol::PacketType::kScan).packets);
+  fuzz::require(checker.lines.size() == each * counts.of(fsr::protocol::PacketType::kScan).packets +
+                                            counts.of(fsr::protocol::PacketType::kTrigger).packets);
   return checker.lines;
 }
 

@@ -37,6 +37,17 @@ TEST(PacketStamper, StampsScansAndReadingsWithOneClock) {
   EXPECT_EQ(stamper.transducer(at(101'000, 24)).stamp, scan + 1 * kMillisecond);
 }
 
+TEST(PacketStamper, StampsAnEdgeOnTheClockOfTheScansAndNoticesAResetInIt) {
+  fsr::protocol::PacketStamper stamper;
+  stamper.startLine(0);
+  stamper.setArrival(50'000 * kMillisecond);
+  stamper.scan(at(50'000'000, 168), 0);
+  stamper.setArrival(50'018 * kMillisecond);  // sent behind the next scan
+  EXPECT_EQ(stamper.trigger(at(50'003'000, 25)).stamp, 50'003 * kMillisecond);
+  stamper.setArrival(52'000 * kMillisecond);
+  EXPECT_EQ(stamper.trigger(at(1000, 25)).stamp, 52'000 * kMillisecond) << "the board started again";
+}
+
 TEST(PacketStamper, GivesPacketsOfOneReadDifferentStamps) {
   fsr::protocol::PacketStamper stamper;
   stamper.startLine(0);

@@ -89,6 +89,19 @@ TEST(TextDecoder, PassesOverHeadersCommentsAndEmptyLines) {
   EXPECT_EQ(bench.counts().skipped_bytes, 1U) << "of the first line";
 }
 
+TEST(TextDecoder, ReadsTriggersFromCommentsAndPassesOverOtherComments) {
+  const Lines edges = {"trigger #1 @12000 rising +- 1000", "trigger #2 @15000 falling +- 0"};
+  EXPECT_EQ(linesOfText("#trigger,12,1,1\r\n#trigger, 15, 0, 0\n"), edges);
+  for (const std::string line :
+       {"#trigger", "#trigger,12,1", "#trigger,12,2,1", "#trigger,12,1,1,1", "#triggers,1,1,1",
+        "#trigger,-1,1,1", "#trigger,12,1,99999999", "#trigger,a,1,1"}) {
+    TextBench bench;
+    bench.feed("\n" + line + "\n12,0,512,1023\n");
+    EXPECT_EQ(bench.lines(), kOneScan) << line;
+    EXPECT_EQ(bench.counts().skipped_bytes, 1U) << line;
+  }
+}
+
 TEST(TextDecoder, DropsTheFirstLineOfAStreamBecauseItsStartMayBeMissing) {
   TextBench bench;
   bench.feed("2,0,512,1023\n12,0,512,1023\n");

@@ -42,6 +42,12 @@ Bytes temperature(std::uint32_t sequence, std::uint32_t time, std::int32_t milli
           out.data() + fsr_wire_encode_temperature(out.data(), out.size(), sequence, time, millidegrees)};
 }
 
+Bytes trigger(std::uint32_t sequence, std::uint32_t time, std::uint8_t high, std::uint32_t deviation) {
+  Buffer out;
+  return {out.data(),
+          out.data() + fsr_wire_encode_trigger(out.data(), out.size(), sequence, time, high, deviation)};
+}
+
 Bytes identity(std::uint8_t rows = 7) {
   Buffer out;
   const fsr_wire_identity content = {"FSR-0042", "1.2.0", "rig board", rows, 10, 4095, 10000};
@@ -254,6 +260,27 @@ TEST(WireDecoder, FindsNothingInRandomNoise) {
   // 2^23 places, each a sync word with probability 2^-16: 128 expected, 6 deviations (68) on either side.
   EXPECT_NEAR(static_cast<double>(bench.counts().bad_header_check), 128, 68);
   EXPECT_EQ(bench.feed(joined(fivePackets())).lines(), kFiveLines);
+}
+
+TEST(WireDecoder, ReadsTriggersBetweenScansAndRefusesAnotherLevelThanTwo) {
+  Bench bench;
+  bench.feed(trigger(5, 1000, 1, 2) + scan(7, 1500, {1}) + trigger(6, 2000, 0, 70000));
+  const Lines expected = {"trigger #5 @1000 rising +- 2", "scan #7 @1500 1x1 full 4095 took 5000 counts 1",
+                          "trigger #6 @2000 falling +- 70000"};
+  EXPECT_EQ(bench.lines(), expected);
+  Bytes other = trigger(7, 3000, 1, 2);
+  other[FSR_WIRE_HEADER_SIZE] = 2;
+  EXPECT_EQ(bench.feed(withHeader(other, 1, 5, 5)).lines(), expected);
+  EXPECT_EQ(bench.counts().bad_content, 1U);
+}
+
+// As a driver meets a packet type that it does not know yet.
+TEST(WireDecoder, ReadsOnBehindATypeThatItDoesNotKnow) {
+  Bench bench;
+  bench.feed(scan(1, 1000, {1}) + withHeader(trigger(1, 1500, 1, 2), 1, 6, 5) + scan(2, 2000, {1}));
+  EXPECT_EQ(bench.lines().size(), 2U);
+  EXPECT_EQ(bench.counts().unknown_type, 1U);
+  EXPECT_EQ(bench.counts().of(fsr::protocol::PacketType::kScan).lost, 0U);
 }
 
 TEST(WireDecoder, CountsGapsDuplicatesAndRestartsOfEachTypeOnItsOwn) {

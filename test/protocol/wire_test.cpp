@@ -77,6 +77,16 @@ TEST(Wire, EncodesAnIdentityByteForByteAndCutsLongTexts) {
   EXPECT_EQ(Bytes(buffer.begin(), buffer.begin() + size), expected);
 }
 
+TEST(Wire, EncodesATriggerByteForByte) {
+  Buffer buffer{};
+  // packet(5, 3, 4000000000, struct.pack('<BI', 1, 70000))
+  const Bytes expected = {0xA5, 0x5A, 0x01, 0x05, 0x05, 0x00, 0x03, 0x00, 0x00, 0x00, 0x00, 0x28, 0x6B,
+                          0xEE, 0xD0, 0xE0, 0x01, 0x70, 0x11, 0x01, 0x00, 0xC6, 0xAC, 0x02, 0xF7};
+  EXPECT_EQ(fsr_wire_encode_trigger(buffer.data(), 24, 3, 4000000000, 1, 70000), 0U);
+  const std::size_t size = fsr_wire_encode_trigger(buffer.data(), buffer.size(), 3, 4000000000, 1, 70000);
+  EXPECT_EQ(Bytes(buffer.begin(), buffer.begin() + size), expected);
+}
+
 TEST(Wire, RefusesABufferThatIsTooSmallWithoutWritingToIt) {
   const fsr_wire_identity identity = {"", "", "", 7, 10, 4095, 0};
   Buffer buffer{};

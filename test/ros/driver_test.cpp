@@ -1,3 +1,4 @@
+#include <fsr_pressure_map/Event.h>
 #include <fsr_pressure_map/MatrixFrame.h>
 #include <fsr_pressure_map/MatrixInfo.h>
 #include <gtest/gtest.h>
@@ -53,6 +54,10 @@ class Board {
   }
   void sendReading(std::int32_t counts) {
     pty_.write(test_support::transducerPacket(next_, time(next_), counts));
+  }
+  // 3 ms behind the last scan.
+  void sendTrigger(bool high) {
+    pty_.write(test_support::triggerPacket(next_, time(next_ - 1) + 3000, high, 2));
   }
   void sendTemperature(std::int32_t value) {
     pty_.write(test_support::temperaturePacket(next_, time(next_), value));
@@ -111,6 +116,18 @@ TEST_F(DriverNode, PublishesEveryScanWithItsCountsAndIncreasingStamps) {
   EXPECT_EQ(raw.messages.front()->columns, 3);
   EXPECT_EQ(raw.messages.front()->full_scale, 4095);
   EXPECT_LT(std::abs((last - ros::Time::now()).toSec()), 60);
+}
+
+TEST_F(DriverNode, PublishesAnEdgeOfTheTriggerAsAnEvent) {
+  Listener<fsr_pressure_map::Event> events("fsr/events");
+  ASSERT_TRUE(events.connected());
+  const auto board = plugIn(port_, "fsr/driver");
+  board->sendScans(1);
+  board->sendTrigger(true);
+  ASSERT_TRUE(events.has(1));
+  EXPECT_EQ(events.messages[0]->kind, "sync");
+  EXPECT_EQ(events.messages[0]->label, "trigger rising +- 0.002 ms");
+  EXPECT_NEAR((events.messages[0]->header.stamp - ros::Time::now()).toSec(), 0, 5);
 }
 
 TEST_F(DriverNode, SurvivesUnpluggingAndReadsTheBoardThatComesBack) {

@@ -124,7 +124,7 @@ class FirmwareTest(unittest.TestCase):
                 scans = [message for _, message, _ in opened.read_messages("/fsr/raw")]
                 info = next(message for _, message, _ in opened.read_messages("/fsr/matrix_info"))
             self.assertEqual((info.serial, info.firmware, info.rows, info.columns, info.full_scale),
-                             ("FSR-0042", "1.0.0", 7, 10, 1023))
+                             ("FSR-0042", "1.1.0", 7, 10, 1023))
             self.assertGreater(len(scans), 2 * CYCLE * 50)
             steps = [(after.header.stamp - before.header.stamp).to_sec() for before, after in zip(scans, scans[1:])]
             self.assertAlmostEqual(sorted(steps)[len(steps) // 2], 0.020, delta=0.0005)

@@ -155,6 +155,18 @@ TEST(RigEmulatorNode, DamagesTheLineByItsParametersAndEndsTheDamage) {
   EXPECT_TRUE(setDamage(false).success);
 }
 
+TEST(RigEmulatorNode, SendsAnEdgeOfTheTrigger) {
+  BoardListener listener(port());
+  for (const bool high : {true, false}) {
+    std_srvs::SetBool service;
+    service.request.data = high;
+    EXPECT_EQ(call("set_trigger", service).response.message,
+              std::string(high ? "a rising" : "a falling") + " edge at the trigger input");
+  }
+  ASSERT_TRUE(listener.until([&] { return listener.triggers.size() == 2; }));
+  EXPECT_EQ(listener.triggers, (std::vector<bool>{true, false}));
+}
+
 TEST(RigEmulatorNode, AResetRestartsTheBoard) {
   BoardListener listener(port());
   ASSERT_TRUE(listener.until([&] { return !listener.scans.empty() && listener.scans.back().sequence > 40; }));

@@ -30,6 +30,7 @@ class BoardListener : public fsr::protocol::PacketHandler {
   std::vector<Scan> scans;
   std::vector<Reading> transducer;
   std::vector<Reading> temperature;
+  std::vector<bool> triggers;        // levels behind the edges
   std::vector<std::string> serials;  // one for each identity packet
 
   /// Reads until the condition is true. Returns false after 30 s.
@@ -56,6 +57,9 @@ class BoardListener : public fsr::protocol::PacketHandler {
   void onIdentity(const fsr::protocol::PacketHeader&,
                   const fsr::protocol::IdentityPacket& identity) override {
     serials.emplace_back(identity.serial);
+  }
+  void onTrigger(const fsr::protocol::PacketHeader&, const fsr::protocol::TriggerPacket& trigger) override {
+    triggers.push_back(trigger.high);
   }
 
  private:

@@ -31,6 +31,14 @@ inline Bytes temperaturePacket(std::uint32_t sequence, std::uint32_t time_us, st
   return packet;
 }
 
+inline Bytes triggerPacket(std::uint32_t sequence, std::uint32_t time_us, bool high,
+                           std::uint32_t deviation_us) {
+  Bytes packet(FSR_WIRE_MAX_PACKET);
+  packet.resize(
+      fsr_wire_encode_trigger(packet.data(), packet.size(), sequence, time_us, high ? 1 : 0, deviation_us));
+  return packet;
+}
+
 inline Bytes identityPacket(std::uint32_t sequence, std::uint32_t time_us, std::uint8_t rows,
                             std::uint8_t columns, const char* serial) {
   const fsr_wire_identity identity = {serial, "1.2.0", "test board", rows, columns, 4095, 10000};

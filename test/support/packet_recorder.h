@@ -35,6 +35,11 @@ class PacketRecorder : public fsr::protocol::PacketHandler {
          << identity.scan_period;
     add("identity", header, text.str());
   }
+  void onTrigger(const fsr::protocol::PacketHeader& header,
+                 const fsr::protocol::TriggerPacket& trigger) override {
+    add("trigger", header,
+        std::string(trigger.high ? "rising" : "falling") + " +- " + std::to_string(trigger.deviation));
+  }
 
  private:
   void add(const std::string& type, const fsr::protocol::PacketHeader& header, const std::string& content) {

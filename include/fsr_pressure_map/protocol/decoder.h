@@ -13,8 +13,8 @@
 namespace fsr::protocol {
 
 /// What a packet tells.
-enum class PacketType : unsigned { kScan, kTransducer, kTemperature, kIdentity };
-constexpr std::size_t kPacketTypes = 4;
+enum class PacketType : unsigned { kScan, kTransducer, kTemperature, kIdentity, kTrigger };
+constexpr std::size_t kPacketTypes = 5;
 
 /// What every packet carries.
 struct PacketHeader {
@@ -42,6 +42,12 @@ struct IdentityPacket {
   std::uint32_t scan_period = 0;  ///< [us]; 0 = unknown
 };
 
+/// An edge at the board's trigger input; the device time of its packet is the moment of the edge.
+struct TriggerPacket {
+  bool high = false;            ///< level behind the edge
+  std::uint32_t deviation = 0;  ///< the edge lies at most this far from the device time [us]
+};
+
 /// Receives the packets that a decoder finds.
 class PacketHandler {
  public:
@@ -53,6 +59,7 @@ class PacketHandler {
   /// `millidegrees`: [0.001 degree Celsius].
   virtual void onTemperature(const PacketHeader& header, std::int32_t millidegrees) = 0;
   virtual void onIdentity(const PacketHeader& header, const IdentityPacket& identity) = 0;
+  virtual void onTrigger(const PacketHeader& /*header*/, const TriggerPacket& /*trigger*/) {}
 };
 
 /// How the packets of one type followed each other.

@@ -36,6 +36,7 @@ extern "C" {
 #define FSR_WIRE_TRANSDUCER 2u  /* device time = time of the sample */
 #define FSR_WIRE_TEMPERATURE 3u /* device time = time of the sample */
 #define FSR_WIRE_IDENTITY 4u    /* at start-up and about once a second; device time = now */
+#define FSR_WIRE_TRIGGER 5u     /* within 0.1 s of an edge at the input; device time = the edge */
 
 /* Sizes [bytes]. */
 #define FSR_WIRE_HEADER_SIZE 16u
@@ -48,6 +49,7 @@ extern "C" {
 #define FSR_WIRE_TRANSDUCER_PAYLOAD 4u
 #define FSR_WIRE_TEMPERATURE_PAYLOAD 4u
 #define FSR_WIRE_IDENTITY_PAYLOAD (3u * FSR_WIRE_TEXT_SIZE + 8u)
+#define FSR_WIRE_TRIGGER_PAYLOAD 5u
 #define FSR_WIRE_MAX_PAYLOAD FSR_WIRE_SCAN_PAYLOAD(FSR_WIRE_MAX_SIDE, FSR_WIRE_MAX_SIDE)
 #define FSR_WIRE_MAX_PACKET (FSR_WIRE_OVERHEAD + FSR_WIRE_MAX_PAYLOAD)
 
@@ -84,6 +86,10 @@ size_t fsr_wire_encode_temperature(uint8_t* out, size_t capacity, uint32_t seque
                                    int32_t millidegrees);
 size_t fsr_wire_encode_identity(uint8_t* out, size_t capacity, uint32_t sequence, uint32_t time_us,
                                 const fsr_wire_identity* identity);
+/* `high`: level of the input behind the edge, 0 or 1. `deviation_us`: the edge lies at most this far from
+ * `time_us` [us]. */
+size_t fsr_wire_encode_trigger(uint8_t* out, size_t capacity, uint32_t sequence, uint32_t time_us,
+                               uint8_t high, uint32_t deviation_us);
 
 /* CRC-16/CCITT-FALSE (polynomial 0x1021, start 0xFFFF): 0x29B1 for the text "123456789". */
 uint16_t fsr_wire_crc16(const uint8_t* bytes, size_t size);

@@ -167,6 +167,12 @@ void Driver::onIdentity(const fsr::protocol::PacketHeader& /*header*/,
   if (gate_.identity(identity.serial, arrival_) == fsr::protocol::BoardGate::Board::kSame) releaseHeld();
 }
 
+void Driver::onTrigger(const fsr::protocol::PacketHeader& header,
+                       const fsr::protocol::TriggerPacket& trigger) {
+  const fsr_pressure_map::Event event = triggerMessage(trigger, stamper_.trigger(header), settings_);
+  if (!event.header.stamp.isZero()) events_.publish(event);
+}
+
 void Driver::onOpen(std::uint32_t baud) {
   stamper_.startLine(baudInRosTime(baud));
   doubtBoard();

@@ -17,9 +17,9 @@
 
 namespace fsr_ros {
 
-/// Reads a board and publishes `raw`, `chamber_pressure`, `temperature`, `matrix_info` (latched and repeated
-/// each second) and diagnostics. The service `~set_enabled` closes and opens the port. Parameters:
-/// DriverSettings.
+/// Reads a board and publishes `raw`, `chamber_pressure`, `temperature`, `events` (edges at its trigger
+/// input), `matrix_info` (latched and repeated each second) and diagnostics. The service `~set_enabled`
+/// closes and opens the port. Parameters: DriverSettings.
 ///
 /// Packets are published from the thread of the link as they come, as shared pointers, so that nodelets of
 /// one manager receive them without a copy. Everything else runs in the callback queue of the node.
@@ -38,6 +38,8 @@ class Driver : private fsr::protocol::LinkHandler {
   void onTemperature(const fsr::protocol::PacketHeader& header, std::int32_t millidegrees) override;
   void onIdentity(const fsr::protocol::PacketHeader& header,
                   const fsr::protocol::IdentityPacket& identity) override;
+  void onTrigger(const fsr::protocol::PacketHeader& header,
+                 const fsr::protocol::TriggerPacket& trigger) override;
   void onOpen(std::uint32_t baud) override;
   void onBytes(std::int64_t receive_time) override;
   void onChange(const fsr::protocol::LinkReport& report) override;

@@ -91,6 +91,7 @@ void addCounts(const DriverHealth& now, const DriverSettings& settings, Status& 
   status.add("gaps in the scan counter", scans.gaps);
   status.add("duplicate scans", scans.duplicates);
   status.add("restarts of the board", scans.restarts);
+  status.add("edges of the trigger lost", counts.of(fsr::protocol::PacketType::kTrigger).lost);
   status.add("scans of another size", now.refused_scans);
   status.add("dropped: board sent no identity", now.unclaimed_scans);
   if (speaksText(settings)) {

@@ -60,7 +60,8 @@ RigEmulator::RigEmulator(const ros::NodeHandle& handle, const ros::NodeHandle& p
     operator_ = std::make_unique<RigOperator>(handle, private_handle, parameters_, surfaces_, make, options);
   }
   rig_ = std::make_unique<fsr::emulator::Emulator>(options);
-  services_ = {own.advertiseService("set_damage", &RigEmulator::setDamage, this)};
+  services_ = {own.advertiseService("set_damage", &RigEmulator::setDamage, this),
+               own.advertiseService("set_trigger", &RigEmulator::setTrigger, this)};
   if (operator_) {
     operator_->workAt(*rig_);
   } else {
@@ -162,6 +163,13 @@ bool RigEmulator::setSurface(fsr_pressure_map::SetSurface::Request& request,
     rig_->setSurface(surface);
     mount_ = surface.mount;
     return "the emulated matrix lies on " + surface.name + " (mount " + std::to_string(mount_) + ")";
+  });
+}
+
+bool RigEmulator::setTrigger(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response) {
+  return answer(response, [&] {
+    rig_->setTrigger(request.data);
+    return std::string(request.data ? "a rising" : "a falling") + " edge at the trigger input";
   });
 }
 

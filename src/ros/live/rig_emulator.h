@@ -26,6 +26,7 @@ namespace fsr_ros {
 /// `~set_surface`, `~set_damage` (true: damages the line as the present parameters `~damage/` say; false:
 /// ends the damage). The node does not publish `curvature`: when the surface changes, call the curvature node
 /// too, with the same surface and mount.
+/// `~set_trigger` makes an edge at the board's trigger input (true: rising).
 ///
 /// With the parameter `~operator` a RigOperator works chamber and sheet; `~start`, `~stop` and `~set_surface`
 /// do not exist then.
@@ -48,6 +49,7 @@ class RigEmulator {
 
   bool setSurface(fsr_pressure_map::SetSurface::Request& request,
                   fsr_pressure_map::SetSurface::Response& response);
+  bool setTrigger(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
   bool setDamage(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
 
   Parameters parameters_;

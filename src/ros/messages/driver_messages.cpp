@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <boost/make_shared.hpp>
 #include <cmath>
+#include <iomanip>
 #include <iterator>
+#include <sstream>
 
 namespace fsr_ros {
 namespace {
@@ -71,6 +73,19 @@ sensor_msgs::TemperaturePtr temperatureMessage(std::int32_t millidegrees,
   message->header = headerAt(time.stamp, settings);
   message->temperature = millidegrees * 1e-3;
   return message;
+}
+
+fsr_pressure_map::Event triggerMessage(const fsr::protocol::TriggerPacket& trigger,
+                                       const fsr::protocol::PacketTime& time,
+                                       const DriverSettings& settings) {
+  fsr_pressure_map::Event event;
+  event.header = headerAt(time.stamp, settings);
+  event.kind = "sync";
+  std::ostringstream label;
+  label << "trigger " << (trigger.high ? "rising" : "falling") << " +- " << std::fixed << std::setprecision(3)
+        << trigger.deviation * 1e-3 << " ms";
+  event.label = label.str();
+  return event;
 }
 
 fsr_pressure_map::MatrixInfo matrixInfo(const Board& board, const DriverSettings& settings) {

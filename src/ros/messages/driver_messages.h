@@ -1,5 +1,6 @@
 #pragma once
 
+#include <fsr_pressure_map/Event.h>
 #include <fsr_pressure_map/MatrixFrame.h>
 #include <fsr_pressure_map/MatrixInfo.h>
 #include <sensor_msgs/FluidPressure.h>
@@ -84,6 +85,11 @@ sensor_msgs::FluidPressurePtr pressureMessage(std::int32_t counts, const fsr::pr
 sensor_msgs::TemperaturePtr temperatureMessage(std::int32_t millidegrees,
                                                const fsr::protocol::PacketTime& time,
                                                const DriverSettings& settings);
+
+/// Kind `sync`, label "trigger rising +- 0.002 ms": the edge lies at most so far from the stamp, on the clock
+/// of the scans' stamps.
+fsr_pressure_map::Event triggerMessage(const fsr::protocol::TriggerPacket& trigger,
+                                       const fsr::protocol::PacketTime& time, const DriverSettings& settings);
 
 /// The stamp of the header is left 0.
 fsr_pressure_map::MatrixInfo matrixInfo(const Board& board, const DriverSettings& settings);

@@ -53,6 +53,15 @@ TEST(DriverMessages, GivesTemperatureInDegrees) {
   EXPECT_DOUBLE_EQ(fsr_ros::temperatureMessage(-500, kTime, DriverSettings())->temperature, -0.5);
 }
 
+TEST(DriverMessages, MarksAnEdgeOfTheTriggerWithItsDeviation) {
+  const fsr_pressure_map::Event event = fsr_ros::triggerMessage({true, 2}, kTime, DriverSettings());
+  EXPECT_EQ(event.header.stamp, ros::Time(1700000000, 123456789));
+  EXPECT_EQ(event.kind, "sync");
+  EXPECT_EQ(event.label, "trigger rising +- 0.002 ms");
+  EXPECT_EQ(fsr_ros::triggerMessage({false, 2500}, kTime, DriverSettings()).label,
+            "trigger falling +- 2.500 ms");
+}
+
 TEST(DriverMessages, ShiftsStampsByTheOffset) {
   DriverSettings settings;
   settings.time_offset = -0.25;
