@@ -178,6 +178,8 @@ void ScanContext::readLabels(const rosbag::Bag& bag, const SensorTopics& topics)
   if (!session.empty() && topics.has(beside)) events.insert(beside);
   for (const std::string& topic : events) {
     forEach<fsr_pressure_map::Event>(bag, topics, topic, [&](const auto& message) {
+      const bool edge = message.kind == "sync" && message.label.rfind("trigger ", 0) == 0;
+      if (edge) return true;  // many a second would hide the marks
       events_.emplace_back(stampOf(message.header),
                            message.kind + (message.label.empty() ? "" : ":" + message.label));
       return true;

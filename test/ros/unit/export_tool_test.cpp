@@ -112,6 +112,10 @@ class ExportTool : public testing::Test {
     event.kind = "note";
     event.label = "wet";
     to.write("/fsr/events", event.header.stamp, event);
+    event.header.stamp.fromNSec(kStart + 6000000000);
+    event.kind = "sync";  // an edge of the trigger hides no mark
+    event.label = "trigger rising +- 0.002 ms";
+    to.write("/fsr/events", event.header.stamp, event);
     to.close();
     return path;
   }
