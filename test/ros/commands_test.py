@@ -186,6 +186,7 @@ class Stock:
         self.put_all("session/*.bag", folder)
         self.run("discrepancy", "session/", "--no-report", "--output", "found")
         write_socket(folder / "socket.stl")
+        (folder / "regions.yaml").write_text("regions: [{name: heel, rows: [0, 0]}]\n")
         (folder / "left_wall.yaml").write_text((SOURCE / "config/surfaces/socket_wall_7cm.yaml").read_text())
         (folder / "table.csv").write_text("time,force_V,p\n" + "".join("%d,%g,%g\n" % (100 * i, 0.1 * i, 0.2 * i) for i in range(20)))
 
@@ -222,7 +223,7 @@ class Stock:
         for name in re.findall(r"[\w./]+[.]h5\b", read):
             part = {"A.h5": "first.h5", "monday.h5": "first.h5", "B.h5": "second.h5", "tuesday.h5": "second.h5"}
             self.put(folder / name, self.folder / part.get(name, "calibration.h5"))
-        for name in re.findall(r"socket[.]stl|left_wall[.]yaml|table[.]csv|day[.]yaml", read):
+        for name in re.findall(r"socket[.]stl|left_wall[.]yaml|regions[.]yaml|table[.]csv|day[.]yaml", read):
             self.put(folder / name, self.folder / name)
         if "found/" in read:
             shutil.copytree(self.folder / "found", folder / "found", copy_function=os.link)
