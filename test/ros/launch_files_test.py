@@ -156,7 +156,7 @@ class LaunchFilesTest(unittest.TestCase):
         self.assertTrue(maps[-1].flags[0] & PressureMap.FLAG_MASKED)
         self.assertFalse(maps[-1].flags[1] & PressureMap.FLAG_MASKED)
         self.assertIn("goes on with cylinder_5cm, mount 2", rig.said())
-        self.wait_for(lambda: "the alarms that were set last: the whole matrix at 123 kPa, region toe at 40 kPa" in rig.said(), rig)
+        self.wait_for(lambda: "the alarms that were set last: the whole matrix at 922.6 mmHg, region toe at 300 mmHg" in rig.said(), rig)
         arrays = []
         subscriber = rospy.Subscriber("/fsr/statistics", PressureStatisticsArray, arrays.append)
         self.wait_for(lambda: arrays and len(arrays[-1].regions) == 2, rig)  # the regions are known from the first map on

@@ -126,7 +126,7 @@ TEST_F(View, DrawsTheSheetWithMarksCentrePeakAndLegend) {
   EXPECT_NEAR(array->markers[3].pose.position.x, 0.020,
               1e-3);  // the peak: row 2, column 4, whatever the curvature
   EXPECT_NEAR(array->markers[3].pose.position.y, 0.010, 1e-3);
-  for (const char* words : {"14 kPa", "history not settled on 7 % of taxels"}) {
+  for (const char* words : {"105 mmHg", "history not settled on 7 % of taxels"}) {
     EXPECT_NE(array->markers[4].text.find(words), std::string::npos) << array->markers[4].text;
   }
 }
