@@ -13,6 +13,7 @@
 #include <memory>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "fsr_pressure_map/settings/pressure_unit.h"
 #include "ros/bags/bag_walk.h"
 #include "ros/bags/simulated_bags.h"
 #include "settings/progress.h"
