@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fsr_pressure_map/settings/input_error.h"
 #include "statistics/samples.h"
 
 namespace fsr::exports {
@@ -141,6 +142,11 @@ void TrialTable::writeRecording() {
   if (time_.empty()) return;
   std::vector<double> force;
   for (const Moment& moment : moments_.front()) force.push_back(moment.force);
+  if (std::none_of(moments_.front().begin(), moments_.front().end(),
+                   [](const Moment& m) { return m.area > 0; }))
+    throw settings::InputError(bag_ + ": is a trial without load: no taxel reaches " +
+                               view::pressureText(options_.contact_threshold, options_.unit) +
+                               "; leave it out, or give a lower --contact");
   const double threshold = std::isnan(options_.step_force) ? stepThreshold(force) : options_.step_force;
   std::vector<Step> steps = findSteps(force, time_, threshold);
   steps.insert(steps.begin(), {0, time_.size() - 1});

@@ -124,6 +124,12 @@ TEST_F(RegionTables, OfATrialHaveItsPeaksForcesAndIntegrals) {
             "4.8,10,45");
 }
 
+TEST_F(RegionTables, RefuseATrialWithoutLoad) {
+  const std::string refusal = test_support::refusal([&] { lines<TrialTable>(scans({0, 9, 0}), {}); });
+  EXPECT_TRUE(test_support::holds(refusal, {"2_cylinder.bag", "without load", "10 kPa", "--contact"}))
+      << refusal;
+}
+
 TEST_F(RegionTables, AreInMillimetresOfMercuryWhereAsked) {
   StatisticsOptions options;
   options.unit = view::PressureUnit::kMillimetreOfMercury;
