@@ -74,10 +74,12 @@ std::vector<std::size_t> faultyTaxels(const std::string& id, const EffectValues&
 // The spells of the context; without one, those taxels from `start` on.
 std::vector<FaultSpell> faultSpells(const std::string& id, const EffectValues& values,
                                     const EffectContext& context) {
-  std::vector<FaultSpell> spells = context.spells;
   const std::vector<std::size_t> faulty = faultyTaxels(id, values, context);
-  for (std::size_t k = 0; k < faulty.size() && context.spells.empty(); ++k)
-    spells.push_back({faulty[k], values.at("start"), kForever, 0});
+  if (!context.spells.empty()) return context.spells;
+  const auto value = values.find("value");  // of stuck_taxel
+  std::vector<FaultSpell> spells;
+  for (const std::size_t taxel : faulty)
+    spells.push_back({taxel, values.at("start"), kForever, value == values.end() ? 0 : value->second});
   return spells;
 }
 
@@ -168,8 +170,6 @@ class StuckTaxel : public Effect {
  public:
   StuckTaxel(const EffectValues& values, const EffectContext& context)
       : spells_(faultSpells("stuck_taxel", values, context)) {
-    for (FaultSpell& spell : spells_)
-      if (context.spells.empty()) spell.reading = values.at("value");
     state_.assign(2 * spells_.size(), 0.0);  // of each spell: whether it has begun, and its reading [counts]
   }
 
