@@ -36,8 +36,8 @@ std::string fixedPressure(double pressure, int decimals) {
   return inShownUnit(pressure, decimals) + ' ' + shownUnitName();
 }
 
-std::string roundedPressure(double pressure, int digits) {
-  return roundedText(pressure / shownUnitSize(), digits) + ' ' + shownUnitName();
+std::string roundedPressure(double pressure, int digits, PressureUnit unit) {
+  return roundedText(pressure / pascals(unit), digits) + ' ' + name(unit);
 }
 
 std::string inShownUnit(double pressure, int decimals) {

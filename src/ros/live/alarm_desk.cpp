@@ -48,8 +48,7 @@ AlarmDesk::AlarmDesk(const ros::NodeHandle& handle, const ros::NodeHandle& priva
 }
 
 std::string AlarmDesk::text(double pressure) const {
-  return fsr::settings::roundedText(pressure / fsr::settings::pascals(unit_), 4) + ' ' +
-         fsr::settings::name(unit_);
+  return fsr::settings::roundedPressure(pressure, 4, unit_);
 }
 
 bool AlarmDesk::any() const {

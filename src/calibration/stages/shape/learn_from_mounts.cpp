@@ -40,7 +40,8 @@ class ShapeTraining {
     gatherSurfaces();
     if (groups_.size() < kLeastSurfaces) {
       model_.missing = "the bags hold a rest before the first load on " + std::to_string(groups_.size()) +
-                       " surfaces of one curvature, but three are needed to learn how the sheet rests";
+                       (groups_.size() == 1 ? " surface" : " surfaces") +
+                       " of one curvature, but three are needed to learn how the sheet rests";
       return model_;
     }
     chooseTaxels();
