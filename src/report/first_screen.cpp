@@ -4,8 +4,8 @@
 
 #include "report/discrepancy_report.h"
 #include "report/text_table.h"
-#include "settings/joined.h"
 #include "settings/number_text.h"
+#include "settings/text.h"
 
 namespace fsr::report {
 

@@ -1,4 +1,3 @@
-#include "report/study/study_parts_file.h"
 
 #include <unistd.h>
 

@@ -7,8 +7,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "calibration/stages/deviation/conditioning_line.h"
-#include "calibration/stages/deviation/deviation_text.h"
+#include "calibration/stages/deviation/budget_lines.h"
 #include "calibration/stages/deviation/interval_tally.h"
 #include "fsr_pressure_map/calibration/calibration.h"
 #include "fsr_pressure_map/calibration/calibration_file.h"

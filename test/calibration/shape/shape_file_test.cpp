@@ -19,7 +19,6 @@
 namespace fsr::calibration {
 namespace {
 
-
 class ShapeFile : public testing::Test {
  protected:
   ~ShapeFile() override { std::remove(path_.c_str()); }

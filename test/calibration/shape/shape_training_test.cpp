@@ -10,7 +10,7 @@
 #include <string>
 
 #include "calibration/merge.h"
-#include "calibration/stages/shape/mount_checks.h"
+#include "calibration/stages/shape/shape_check.h"
 #include "fsr_pressure_map/calibration/calibration.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "fsr_pressure_map/simulation/simulate.h"

@@ -7,8 +7,8 @@
 #include <numeric>
 
 #include "calibration/stages/shape/learn_shape.h"
-#include "calibration/stages/shape/mount_checks.h"
 #include "calibration/stages/shape/read_shape.h"
+#include "calibration/stages/shape/shape_check.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "settings/number_text.h"
 
