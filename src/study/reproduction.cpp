@@ -144,39 +144,9 @@ std::vector<PlannedPiece> bandwidthPieces(const StudyContext& study) {
 
 namespace {
 
-// Held-out readings of one class: number and mean pressure of each code, and the scatter about these means,
-// which is the same for all tables.
-struct TestedClass {
-  std::vector<std::uint16_t> code;
-  std::vector<double> count, mean;  // mean [Pa]
-  double readings = 0;
-  double scatter = 0;  // [Pa^2]
-
-  void add(const regression::CodeStatistics& cell) {
-    cell.forEach([&](const regression::CodeSums& sums) {
-      const regression::Int128 spread =
-          sums.sum_of_squares * sums.count - regression::Int128{sums.sum} * sums.sum;
-      code.push_back(sums.code);
-      count.push_back(sums.count);
-      mean.push_back(regression::fromFixed(sums.sum) / sums.count);
-      readings += sums.count;
-      scatter += static_cast<double>(spread) / sums.count * regression::kFixedPressureUnit *
-                 regression::kFixedPressureUnit;
-    });
-  }
-  double squares(const std::vector<double>& table) const {
-    double sum = scatter;
-    for (std::size_t i = 0; i < code.size(); ++i) {
-      const double error = table[code[i]] - mean[i];
-      sum += count[i] * error * error;
-    }
-    return sum;
-  }
-};
-
-std::vector<TestedClass> testedClasses(const TestPart& part, const Fold& fold,
-                                       const TaxelReadings& readings) {
-  std::vector<TestedClass> tested(part.tested.size());
+std::vector<regression::TestedCodes> testedClasses(const TestPart& part, const Fold& fold,
+                                                   const TaxelReadings& readings) {
+  std::vector<regression::TestedCodes> tested(part.tested.size());
   for (const Cell& cell : fold.test) {
     const auto place = std::find(part.tested.begin(), part.tested.end(), cell.curvature_class);
     if (place == part.tested.end()) continue;
@@ -202,12 +172,12 @@ double rangeOf(const StudyData& data, const Grouping& grouping, const Fold& fold
 }
 
 // 100 times the RMSE of a part [Pa]. `table` points to the tables of the part's classes.
-double percentOf(const std::vector<TestedClass>& tested,
+double percentOf(const std::vector<regression::TestedCodes>& tested,
                  std::vector<std::vector<double>>::const_iterator table) {
   double squares = 0, number = 0;
   for (std::size_t k = 0; k < tested.size(); ++k) {
     squares += tested[k].squares(*table++);
-    number += tested[k].readings;
+    number += tested[k].readings();
   }
   return 100.0 * std::sqrt(squares / number);
 }
@@ -228,7 +198,7 @@ std::vector<double> bandwidthScores(const StudyData& data, const StudyMethod& me
     std::vector<double> sums(plan.bandwidths.size(), 0.0);
     for (const FoldParts& of_fold : partsByFold(parts)) {
       const regression::ClassReadings training = readings.training(folds[of_fold.fold].train, false);
-      std::vector<std::vector<TestedClass>> tested;
+      std::vector<std::vector<regression::TestedCodes>> tested;
       for (std::size_t p = of_fold.first; p < of_fold.end; ++p) {
         tested.push_back(testedClasses(parts[p], folds[of_fold.fold], readings));
       }
