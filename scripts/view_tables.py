@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Writes src/view/colour_tables.cpp and src/view/font_table.cpp anew.
+"""Writes src/view/tables.cpp anew.
 
 Colours: viridis (van der Walt, Smith; CC0) and cividis (Nunez, Anderton, Renslow, PLoS ONE 13(7) e0199239, 2018; CC0), as in
 python3-matplotlib. Font: misc-fixed 7x13 ("Public domain font. Share and enjoy."), e.g. from Debian's
@@ -40,13 +40,11 @@ def main():
     parser.add_argument("font", metavar="FONT.pcf.gz")
     font_file = parser.parse_args().font
     body = "\n".join(colours(name) for name in ("viridis", "cividis"))
-    VIEW.joinpath("colour_tables.cpp").write_text(
-        f'{HEAD}\n#include "tables.h"\n\nnamespace fsr::tables {{\n\n{body}\n}}  // namespace fsr::tables\n')
     font = PcfFontFile.PcfFontFile(io.BytesIO(gzip.open(font_file).read()))
     glyphs = [f"0x{row:02x}" for code in range(32, 127) for row in rows(font, code)]
-    VIEW.joinpath("font_table.cpp").write_text(
-        f'{HEAD}\n#include "tables.h"\n\nnamespace fsr::tables {{\n\n'
-        f"const std::uint8_t kFont[95 * 13] = {{\n{wrapped(glyphs)}}};\n\n}}  // namespace fsr::tables\n")
+    VIEW.joinpath("tables.cpp").write_text(
+        f'{HEAD}\n#include "view/tables.h"\n\nnamespace fsr::view::tables {{\n\n{body}\n'
+        f"const std::uint8_t kFont[95 * 13] = {{\n{wrapped(glyphs)}}};\n\n}}  // namespace fsr::view::tables\n")
 
 
 main()

@@ -84,7 +84,7 @@ def paragraph(text):
 
 
 def printable(text):
-    """The text without the control characters that names of bags and surfaces may hold, as settings/printable.h has it."""
+    """The text without the control characters that names of bags and surfaces may hold, as settings/text.h has it."""
     return re.sub(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]", "?", text)
 
 

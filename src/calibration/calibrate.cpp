@@ -26,7 +26,7 @@
 #include "fsr_pressure_map/dataset/recording.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "matrix/for_each_taxel.h"
-#include "settings/step_progress.h"
+#include "settings/progress.h"
 
 namespace fsr::calibration {
 

@@ -10,7 +10,7 @@
 
 #include "calibration/packed_tables.h"
 #include "calibration/stages/memory/history_state.h"
-#include "calibration/stages/temperature/temperature_state.h"
+#include "calibration/stages/temperature/temperature_course.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "map/fill.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "calibration/stages/shape/mount_checks.h"
+#include "calibration/stages/shape/shape_check.h"
 #include "check/map_errors.h"
 #include "fsr_pressure_map/calibration/calibration.h"
 

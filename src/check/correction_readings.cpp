@@ -6,7 +6,6 @@
 #include "calibration/stages/session/session_rests.h"
 #include "calibration/stages/session/tare.h"
 #include "calibration/stages/temperature/temperature_course.h"
-#include "calibration/stages/temperature/temperature_state.h"
 #include "check/check.h"
 #include "check/correction.h"
 #include "dataset/count_readers.h"

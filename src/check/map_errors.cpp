@@ -7,7 +7,7 @@
 #include <set>
 
 #include "calibration/sources.h"
-#include "calibration/stages/memory/history_parts.h"
+#include "calibration/stages/memory/history_stream.h"
 #include "calibration/stages/session/session_rests.h"
 #include "calibration/stages/session/tare.h"
 #include "calibration/stages/temperature/temperature_course.h"

@@ -7,7 +7,7 @@
 #include "compensation/scheme_plan.h"
 #include "fsr_pressure_map/compensation/curvature_tables.h"
 #include "fsr_pressure_map/compensation/scheme.h"
-#include "regression/code_samples.h"
+#include "regression/code_statistics.h"
 #include "regression/cross_validation.h"
 #include "regression/regressor.h"
 #include "regression/regressors.h"

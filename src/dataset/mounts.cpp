@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "dataset/count_readers.h"
-#include "dataset/paces.h"
+#include "dataset/protocols.h"
 #include "dataset/sections.h"
 #include "fsr_pressure_map/statistics/metrics.h"
 #include "matrix/for_each_taxel.h"

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "dataset/count_readers.h"
 #include "dataset/time_series.h"
-#include "dataset/unnamed_file.h"
 #include "dataset/unsound_spans.h"
 #include "fsr_pressure_map/dataset/recording.h"
 #include "fsr_pressure_map/matrix/curvature.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "dataset/paces.h"
+#include "dataset/protocols.h"
 
 namespace fsr::dataset {
 

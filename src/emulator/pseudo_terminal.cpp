@@ -12,11 +12,13 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 
-namespace fsr::emulator {
+namespace fsr::protocol {
+// Defined in serial_speed.cpp.
+bool setUnnamedSpeed(int descriptor, std::uint32_t baud);
+std::uint32_t speedOf(int descriptor);
+}  // namespace fsr::protocol
 
-// Defined in terminal_speed.cpp.
-void setTerminalSpeed(int descriptor, std::uint32_t baud);
-std::uint32_t terminalSpeed(int descriptor);
+namespace fsr::emulator {
 
 namespace {
 
@@ -51,7 +53,7 @@ void makeRaw(const std::string& slave, std::uint32_t baud) {
   tcgetattr(descriptor, &settings);
   cfmakeraw(&settings);
   tcsetattr(descriptor, TCSANOW, &settings);
-  setTerminalSpeed(descriptor, baud);
+  protocol::setUnnamedSpeed(descriptor, baud);
   close(descriptor);
 }
 
@@ -138,7 +140,7 @@ void PseudoTerminal::discardUnread() {
 }
 
 std::uint32_t PseudoTerminal::readerBaud() const {
-  return terminalSpeed(master_);
+  return protocol::speedOf(master_);
 }
 
 }  // namespace fsr::emulator

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "exports/region_readings.h"
-#include "settings/fresh_file.h"
+#include "settings/replace_file.h"
 
 namespace fsr::exports {
 

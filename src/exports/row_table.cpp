@@ -9,9 +9,9 @@
 
 #include "exports/hdf5_output.h"
 #include "hdf5/column.h"
-#include "settings/file_kind.h"
-#include "settings/fresh_file.h"
 #include "settings/number_text.h"
+#include "settings/regular_file.h"
+#include "settings/replace_file.h"
 
 namespace fsr::exports {
 

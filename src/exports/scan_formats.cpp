@@ -3,12 +3,12 @@
 #include <filesystem>
 
 #include "exports/pliance_file.h"
+#include "exports/region_readings.h"
 #include "exports/row_table.h"
 #include "exports/scan_table.h"
-#include "exports/statistics_table.h"
 #include "exports/trial_table.h"
 #include "fsr_pressure_map/settings/input_error.h"
-#include "settings/file_kind.h"
+#include "settings/regular_file.h"
 
 namespace fsr::exports {
 

@@ -8,7 +8,7 @@
 
 #include "exports/scan_record.h"
 #include "fsr_pressure_map/view/colour_map.h"
-#include "settings/fresh_file.h"
+#include "settings/replace_file.h"
 
 namespace fsr::exports {
 

@@ -10,7 +10,7 @@
 
 #include "exports/scan_record.h"
 #include "hdf5/column.h"
-#include "settings/fresh_file.h"
+#include "settings/replace_file.h"
 
 // Only sources include this header: it needs HDF5's own.
 

@@ -2,7 +2,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "settings/number_text.h"
-#include "settings/yaml_text.h"
+#include "settings/text.h"
 
 namespace fsr::hdf5 {
 

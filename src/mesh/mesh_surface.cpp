@@ -12,7 +12,7 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "matrix/surface_file.h"
 #include "settings/number_text.h"
-#include "settings/yaml_text.h"
+#include "settings/text.h"
 #include "statistics/samples.h"
 
 namespace fsr::mesh {

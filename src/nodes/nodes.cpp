@@ -1,5 +1,3 @@
-#include "nodes/nodes.h"
-
 #include <nodelet/nodelet.h>
 #include <ros/ros.h>
 #include <pluginlib/class_list_macros.hpp>
@@ -15,7 +13,6 @@
 #include "ros/live/parameters.h"
 #include "ros/live/rig_emulator.h"
 #include "ros/live/serve.h"
-#include "ros/live/servers.h"
 #include "ros/recording/conduct_server.h"
 #include "ros/recording/rechecker.h"
 #include "ros/recording/recorder.h"
@@ -108,6 +105,7 @@ int record() {
 
 }  // namespace
 
+// The main part of the node of this name, e.g. "driver". Returns its exit status.
 int nodeMain(const std::string& name, int argc, char** argv) {
   static const std::map<std::string, int (*)()> nodes = {{"calibration", serve<makeCalibrationServer>},
                                                          {"conduct", conduct},

@@ -2,7 +2,7 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "protocol/text_decoder.h"
 #include "protocol/wire_decoder.h"
-#include "settings/joined.h"
+#include "settings/text.h"
 
 namespace fsr::protocol {
 namespace {

@@ -1,6 +1,6 @@
 #include "protocol/serial_port.h"
 
-#include "settings/joined.h"
+#include "settings/text.h"
 
 #include <fcntl.h>
 #include <grp.h>

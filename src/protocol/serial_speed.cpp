@@ -23,4 +23,10 @@ bool setUnnamedSpeed(int descriptor, std::uint32_t baud) {
   return close_enough;
 }
 
+// The speed that is set [1/s]; 0 = unknown.
+std::uint32_t speedOf(int descriptor) {
+  termios2 settings{};
+  return ioctl(descriptor, TCGETS2, &settings) == 0 ? settings.c_ospeed : 0;
+}
+
 }  // namespace fsr::protocol

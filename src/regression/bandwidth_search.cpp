@@ -5,35 +5,25 @@
 
 namespace fsr::regression {
 
-namespace {
+void TestedCodes::add(const CodeStatistics& readings) {
+  readings.forEach([&](const CodeSums& sums) {
+    const Int128 spread = sums.sum_of_squares * sums.count - Int128{sums.sum} * sums.sum;
+    code_.push_back(sums.code);
+    count_.push_back(sums.count);
+    mean_.push_back(fromFixed(sums.sum) / sums.count);
+    scatter_ += static_cast<double>(spread) / sums.count * kFixedPressureUnit * kFixedPressureUnit;
+    readings_ += sums.count;
+  });
+}
 
-// Sums of a section for the errors: mean pressure of each code, and the sum of squares about these means,
-// which no answer can reduce.
-struct TestedSection {
-  std::vector<std::uint16_t> code;
-  std::vector<double> count, mean;  // mean [Pa]
-  double scatter = 0;               // [Pa^2]
-
-  explicit TestedSection(const CodeStatistics& section) : code(section.code()) {
-    section.forEach([&](const CodeSums& sums) {
-      const Int128 spread = sums.sum_of_squares * sums.count - Int128{sums.sum} * sums.sum;
-      count.push_back(sums.count);
-      mean.push_back(fromFixed(sums.sum) / sums.count);
-      scatter += static_cast<double>(spread) / sums.count * kFixedPressureUnit * kFixedPressureUnit;
-    });
+double TestedCodes::squares(const std::vector<double>& pressure) const {
+  double sum = scatter_;
+  for (std::size_t i = 0; i < code_.size(); ++i) {
+    const double error = pressure[code_[i]] - mean_[i];
+    sum += count_[i] * error * error;
   }
-
-  double squares(const std::vector<double>& pressure) const {
-    double sum = scatter;
-    for (std::size_t i = 0; i < code.size(); ++i) {
-      const double error = pressure[code[i]] - mean[i];
-      sum += count[i] * error * error;
-    }
-    return sum;
-  }
-};
-
-}  // namespace
+  return sum;
+}
 
 std::vector<double> bandwidthGrid() {
   std::vector<double> grid;
@@ -45,10 +35,10 @@ BandwidthErrors::BandwidthErrors(const std::vector<CodeStatistics>& sections, st
                                  const GrnnOptions& options, const std::vector<double>& grid)
     : grid_(grid), sections_(sections.size()), squares_(grid.size() * sections_ * sections_, 0.0) {
   CodeHistogram training(full_scale);
-  std::vector<TestedSection> tested;
+  std::vector<TestedCodes> tested;
   for (const CodeStatistics& section : sections) {
     training.add(section);
-    tested.emplace_back(section);
+    tested.emplace_back().add(section);
   }
   std::vector<Grnn> models;
   for (const double bandwidth : grid) {

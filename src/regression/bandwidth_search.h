@@ -10,6 +10,22 @@
 
 namespace fsr::regression {
 
+/// Held-out readings, for the errors of tables on them: number and mean pressure of each code, and the
+/// scatter about these means, which no table reduces.
+class TestedCodes {
+ public:
+  void add(const CodeStatistics& readings);
+  double readings() const { return readings_; }
+  /// Sum of the squared errors of a table with a pressure for each code [Pa^2].
+  double squares(const std::vector<double>& pressure) const;
+
+ private:
+  std::vector<std::uint16_t> code_;
+  std::vector<double> count_, mean_;  // mean [Pa]
+  double readings_ = 0;
+  double scatter_ = 0;  // [Pa^2]
+};
+
 /// Bandwidths to choose from: powers of two, 2^-10 to 2^1.
 std::vector<double> bandwidthGrid();
 

@@ -1,5 +1,3 @@
-#include "regression/linear_regression.h"
-
 #include <numeric>
 
 #include "regression/grnn/weighted_codes.h"
@@ -34,20 +32,36 @@ Line leastSquares(const WeightedCodes& samples) {
   return line;
 }
 
-}  // namespace
-
-Fit LinearRegression::fit(const CodeHistogram& training) const {
-  const WeightedCodes samples = weightedCodes(training);
-  if (samples.code.size() == 1) return constantFit(samples);
-  const Line line = leastSquares(samples);
-  Fit fit{std::vector<double>(samples.table_size), std::vector<double>(samples.table_size)};
-  for (std::size_t code = 0; code < samples.table_size; ++code) {
-    const double from_mean = static_cast<double>(code) - line.mean_code;
-    fit.pressure[code] = line.mean_pressure + line.slope * from_mean;
-    fit.support[code] = 1.0 / (1.0 / samples.samples + from_mean * from_mean / line.scatter);
+// Ordinary least squares of pressure on the reading, the paper's simplest model (Ahmadizadeh and Menon 2019,
+// doi:10.3390/s19245519):
+//
+//     f(c) = mean P + b (c - mean c),   b = sum (c_i - mean c) P_i / sum (c_i - mean c)^2.
+//
+// The line is not limited to the codes of training nor to positive pressure: clipping it would hide that the
+// curve of a sensor is not straight. The sums of each code are sufficient, so merging is exact.
+//
+// If all readings are equal, there is no slope, and the answer is their mean pressure everywhere.
+//
+// `support` is 1 / leverage: the number of samples whose mean would have the variance of the line at that
+// code. It is N at the mean reading and decreases to both sides.
+class LinearRegression : public Regressor {
+ public:
+  std::string name() const override { return "linear"; }
+  Fit fit(const CodeHistogram& training) const override {
+    const WeightedCodes samples = weightedCodes(training);
+    if (samples.code.size() == 1) return constantFit(samples);
+    const Line line = leastSquares(samples);
+    Fit fit{std::vector<double>(samples.table_size), std::vector<double>(samples.table_size)};
+    for (std::size_t code = 0; code < samples.table_size; ++code) {
+      const double from_mean = static_cast<double>(code) - line.mean_code;
+      fit.pressure[code] = line.mean_pressure + line.slope * from_mean;
+      fit.support[code] = 1.0 / (1.0 / samples.samples + from_mean * from_mean / line.scatter);
+    }
+    return fit;
   }
-  return fit;
-}
+};
+
+}  // namespace
 
 RegressorEntry linearEntry() {
   RegressorEntry entry;

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "regression/code_samples.h"
 #include "regression/code_statistics.h"
 
 namespace fsr::regression {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "fsr_pressure_map/regression/regressor_options.h"
-#include "regression/code_samples.h"
+#include "regression/code_statistics.h"
 #include "regression/grnn/kernel_mean.h"
 #include "regression/regressor.h"
 

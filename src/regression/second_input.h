@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "regression/code_samples.h"
+#include "regression/code_statistics.h"
 #include "regression/forest/forest.h"
 #include "regression/grnn/grnn.h"
 #include "regression/grnn/kernel_mean.h"

@@ -9,8 +9,8 @@
 #include "report/calibration_report.h"
 #include "report/result_json.h"
 #include "report/text_table.h"
-#include "settings/file_kind.h"
 #include "settings/number_text.h"
+#include "settings/regular_file.h"
 #include "settings/replace_file.h"
 
 namespace fsr::report {

@@ -4,8 +4,7 @@
 
 #include <cmath>
 
-#include "settings/joined.h"
-#include "settings/yaml_text.h"
+#include "settings/text.h"
 #include "simulation/effects/effect_library.h"
 
 namespace fsr::report {

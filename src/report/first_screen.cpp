@@ -4,8 +4,8 @@
 
 #include "report/discrepancy_report.h"
 #include "report/text_table.h"
-#include "settings/joined.h"
 #include "settings/number_text.h"
+#include "settings/text.h"
 
 namespace fsr::report {
 
@@ -14,7 +14,6 @@ namespace {
 using discrepancy::DiscrepancyReport;
 using discrepancy::Verdict;
 
-constexpr double kKilopascal = 1e3;  // [Pa]
 constexpr double kPercent = 100;
 
 // "1.3 kPa", of two digits.
@@ -112,9 +111,8 @@ std::string useText(const std::vector<discrepancy::GapInUse>& costs) {
   std::vector<std::string> parts;
   for (const discrepancy::GapInUse& cost : costs) {
     parts.push_back(
-        settings::fixedText(cost.before / kKilopascal, 1) + " kPa in " + situationText(cost.situation) +
-        (std::isfinite(cost.after) ? " (" + settings::fixedText(cost.after / kKilopascal, 1) + " with it)"
-                                   : ""));
+        settings::fixedPressure(cost.before, 1) + " in " + situationText(cost.situation) +
+        (std::isfinite(cost.after) ? " (" + settings::inShownUnit(cost.after) + " with it)" : ""));
   }
   return parts.empty() ? "" : " Largest error in use: " + settings::joined(parts) + ".";
 }
@@ -161,7 +159,7 @@ bool scattersMore(const DiscrepancyReport& report) {
 // "3.10 % FS (19.2 kPa)".
 std::string gapPart(double value, double pressure) {
   return settings::percentText(value, 2) + " FS" +
-         (std::isfinite(pressure) ? " (" + settings::fixedText(pressure / kKilopascal, 1) + " kPa)" : "");
+         (std::isfinite(pressure) ? " (" + settings::fixedPressure(pressure, 1) + ")" : "");
 }
 
 std::string gapText(const DiscrepancyReport& report) {
@@ -187,9 +185,9 @@ std::string gapText(const DiscrepancyReport& report) {
   if (apart)
     text += std::string(" As a pressure it ") +
             (gap.after_pressure > gap.before_pressure ? "rises" : "falls") + ", from " +
-            settings::fixedText(gap.before_pressure / kKilopascal, 1) + " to " +
-            settings::fixedText(gap.after_pressure / kKilopascal, 1) +
-            " kPa: there, errors count more where the curves are flat.";
+            settings::inShownUnit(gap.before_pressure) + " to " +
+            settings::fixedPressure(gap.after_pressure, 1) +
+            ": there, errors count more where the curves are flat.";
   return text + (gap.held_out_by.empty() ? "" : " Held out by: " + settings::joined(gap.held_out_by) + ".");
 }
 

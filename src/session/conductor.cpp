@@ -8,7 +8,7 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "settings/number_text.h"
 #include "settings/sha256.h"
-#include "settings/yaml_text.h"
+#include "settings/text.h"
 
 namespace fsr::session {
 

@@ -4,7 +4,7 @@
 
 #include "session/day_report.h"
 #include "session/plan_report.h"
-#include "settings/joined.h"
+#include "settings/text.h"
 
 namespace fsr::session {
 

@@ -7,8 +7,8 @@
 #include "session/html_page.h"
 #include "session/plan_report.h"
 #include "session/session_files.h"
-#include "settings/joined.h"
 #include "settings/number_text.h"
+#include "settings/text.h"
 
 namespace fsr::session {
 

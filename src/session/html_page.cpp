@@ -2,7 +2,7 @@
 
 #include <cctype>
 
-#include "settings/printable.h"
+#include "settings/text.h"
 
 namespace fsr::session {
 

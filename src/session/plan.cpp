@@ -7,7 +7,7 @@
 #include <variant>
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "settings/yaml_text.h"
+#include "settings/text.h"
 #include "simulation/pressure_profile.h"
 
 namespace fsr::session {

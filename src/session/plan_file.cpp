@@ -5,9 +5,8 @@
 #include <set>
 
 #include "matrix/surface_file.h"
-#include "settings/joined.h"
 #include "settings/number_text.h"
-#include "settings/yaml_text.h"
+#include "settings/text.h"
 #include "simulation/settings_text.h"
 
 namespace fsr::session {

@@ -16,8 +16,8 @@
 #include "fsr_pressure_map/calibration/calibration.h"
 #include "fsr_pressure_map/discrepancy/discrepancy.h"
 #include "session/plan_steps.h"
-#include "settings/joined.h"
 #include "settings/number_text.h"
+#include "settings/text.h"
 #include "simulation/effects/effect_library.h"
 #include "simulation/settings_text.h"
 

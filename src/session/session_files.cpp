@@ -16,7 +16,7 @@
 #include "settings/replace_file.h"
 #include "settings/settings.h"
 #include "settings/sha256.h"
-#include "settings/yaml_text.h"
+#include "settings/text.h"
 
 namespace fsr::session {
 

@@ -13,9 +13,8 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "settings/foreign_error.h"
-#include "settings/joined.h"
-#include "settings/printable.h"
 #include "settings/replace_file.h"
+#include "settings/text.h"
 
 namespace fsr::settings {
 

@@ -1,11 +1,63 @@
 #include "settings/number_text.h"
 
+#include <atomic>
 #include <cmath>
 #include <ctime>
 #include <iomanip>
 #include <sstream>
 
+#include "fsr_pressure_map/settings/input_error.h"
+#include "fsr_pressure_map/settings/pressure_unit.h"
+
 namespace fsr::settings {
+
+namespace {
+
+std::atomic<PressureUnit> shown_unit{PressureUnit::kKilopascal};
+
+}  // namespace
+
+std::vector<std::string> pressureUnitNames() {
+  return {"kPa", "mmHg"};
+}
+
+PressureUnit pressureUnitOf(const std::string& name) {
+  if (name == "kPa") return PressureUnit::kKilopascal;
+  if (name == "mmHg") return PressureUnit::kMillimetreOfMercury;
+  throw InputError("unit is \"" + name + "\", but must be kPa or mmHg");
+}
+
+std::string name(PressureUnit unit) {
+  switch (unit) {
+    case PressureUnit::kKilopascal:
+      return "kPa";
+    case PressureUnit::kMillimetreOfMercury:
+      return "mmHg";
+    case PressureUnit::kCount:
+      break;
+  }
+  return "counts";
+}
+
+double pascals(PressureUnit unit) {
+  switch (unit) {
+    case PressureUnit::kKilopascal:
+      return 1000;
+    case PressureUnit::kMillimetreOfMercury:
+      return 133.322387415;
+    case PressureUnit::kCount:
+      break;
+  }
+  return 1;
+}
+
+PressureUnit shownUnit() {
+  return shown_unit;
+}
+
+void showPressuresIn(PressureUnit unit) {
+  shown_unit = unit;
+}
 
 namespace {
 
@@ -36,8 +88,8 @@ std::string fixedPressure(double pressure, int decimals) {
   return inShownUnit(pressure, decimals) + ' ' + shownUnitName();
 }
 
-std::string roundedPressure(double pressure, int digits) {
-  return roundedText(pressure / shownUnitSize(), digits) + ' ' + shownUnitName();
+std::string roundedPressure(double pressure, int digits, PressureUnit unit) {
+  return roundedText(pressure / pascals(unit), digits) + ' ' + name(unit);
 }
 
 std::string inShownUnit(double pressure, int decimals) {

@@ -13,11 +13,6 @@ namespace fsr::settings {
 /// 1e15 on. Also in place of std::lround, whose result is no number for a value outside its range.
 std::string fixedText(double value, int decimals);
 
-/// fixedText under its earlier name.
-inline std::string cellText(double value, int decimals) {
-  return fixedText(value, decimals);
-}
-
 /// A share as percent: percentText(0.1234) = "12.3 %".
 std::string percentText(double share, int decimals = 1);
 
@@ -25,10 +20,10 @@ std::string percentText(double share, int decimals = 1);
 /// would be long otherwise: roundedText(0.012345, 3) = "0.0123", roundedText(1e7) = "1e+07".
 std::string roundedText(double value, int digits = 6);
 
-/// A pressure [Pa] in shownUnit(): fixedPressure(12345, 1) = "12.3 kPa", roundedPressure(12345, 4) = "12.35
+/// A pressure [Pa] with its unit: fixedPressure(12345, 1) = "12.3 kPa", roundedPressure(12345, 4) = "12.35
 /// kPa".
 std::string fixedPressure(double pressure, int decimals);
-std::string roundedPressure(double pressure, int digits);
+std::string roundedPressure(double pressure, int digits, PressureUnit unit = shownUnit());
 /// The number alone, and the name of its unit.
 std::string inShownUnit(double pressure, int decimals = 1);
 std::string shownUnitName();

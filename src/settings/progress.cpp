@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "settings/number_text.h"
-#include "settings/printable.h"
+#include "settings/text.h"
 
 namespace fsr::settings {
 

@@ -6,7 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "settings/yaml_text.h"
+#include "settings/text.h"
 #include "simulation/pressure_profile.h"
 #include "simulation/settings_text.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "settings/yaml_text.h"
+#include "settings/text.h"
 #include "simulation/effects/effect_library.h"
 
 namespace fsr::simulation {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "dataset/table_reader.h"
-#include "settings/yaml_text.h"
+#include "settings/text.h"
 
 namespace fsr::simulation {
 

@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "study/fold.h"
-#include "study/study_method.h"
+#include "study/paper.h"
+#include "study/study.h"
 
 namespace fsr::study {
 
@@ -94,5 +95,17 @@ std::vector<double> bandwidthScores(const StudyData& data, const StudyMethod& me
 /// plan.bandwidth_taxels taxels is chosen.
 std::vector<double> chooseBandwidths(const StudyData& data, const StudyMethod& method,
                                      const Validation& validation, const StudyPlan& plan);
+
+/// Summarises a method's held-out errors.
+StudyScore scoreOf(const StudyData& data, const StudyMethod& method, const Evaluation& evaluation);
+
+/// Readings and held-out predictions of one taxel, for figures. The two evaluations use all scans and five
+/// sections.
+TaxelResponse taxelResponse(const StudyData& data, std::size_t taxel_place, const Evaluation& baseline,
+                            const Evaluation& per_curvature);
+
+/// Index in StudyData::taxels of the taxel that the figures show.
+std::size_t figureTaxel(const StudyData& data, const StudyPlan& plan,
+                        const std::vector<double>& rmse_percent);
 
 }  // namespace fsr::study

@@ -6,11 +6,10 @@
 #include <vector>
 
 #include "fsr_pressure_map/compensation/curvature_tables.h"
-#include "regression/code_samples.h"
 #include "regression/code_statistics.h"
 #include "regression/regressors.h"
+#include "study/paper.h"
 #include "study/study_data.h"
-#include "study/study_method.h"
 
 namespace fsr::study {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "regression/code_samples.h"
+#include "regression/code_statistics.h"
 
 namespace benchmark_data {
 

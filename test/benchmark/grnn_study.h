@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "regression/code_samples.h"
+#include "regression/code_statistics.h"
 
 // The GRNN part of the paper's study on one taxel, for timing: five schemes, down-sampled as in the paper,
 // with each section held out in turn, over a grid of bandwidths.

@@ -13,8 +13,8 @@
 #include "regression/bandwidth_search.h"
 #include "regression/forest/forest.h"
 #include "regression/grnn/grnn.h"
-#include "regression/linear_regression.h"
 #include "regression/monotone.h"
+#include "regression/regressors.h"
 
 namespace {
 
@@ -39,7 +39,9 @@ void GrnnTable(State& state) {
   trainAndAnswer(state, fsr::regression::Grnn());
 }
 void LinearTable(State& state) {
-  trainAndAnswer(state, fsr::regression::LinearRegression());
+  fsr::regression::RegressorOptions linear;
+  linear.name = "linear";
+  trainAndAnswer(state, *fsr::regression::makeRegressor(linear));
 }
 void ForestTable(State& state) {
   trainAndAnswer(state, fsr::regression::Forest());

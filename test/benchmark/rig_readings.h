@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "regression/code_samples.h"
+#include "regression/code_statistics.h"
 
 // Readings like those of the paper's rig, for timing: six surfaces, five sections of load cycles up to 620
 // kPa, a 12-bit converter. A bent sheet has a lower gain and a higher reading at rest.

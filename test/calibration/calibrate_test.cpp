@@ -357,42 +357,39 @@ TEST(Calibrate, UnusableRecordingsAreRefusedInOneSentence) {
   bad.name = "bad.bag";
   const auto refusal = [&](dataset::Recording recording) { return complaint({{good, recording}, {}}); };
 
-  EXPECT_EQ(complaint({{}, {}}), "there is no recording to train on; give one bag or more");
+  EXPECT_TRUE(test_support::holds(complaint({{}, {}}), {"there is no recording to train on"}));
   dataset::Recording other = bad;
   other.pressure.clear();
-  EXPECT_EQ(refusal(other),
-            "bad.bag: no chamber pressure is recorded, but training needs the topic chamber_pressure");
+  EXPECT_TRUE(test_support::holds(refusal(other), {"bad.bag", "chamber_pressure"}));
   other = bad;
   other.conditions[0].curvature.clear();
-  EXPECT_EQ(refusal(other), "bad.bag: no curvature is recorded, but training needs the topic curvature");
+  EXPECT_TRUE(test_support::holds(refusal(other), {"bad.bag", "no curvature is recorded"}));
   SyntheticRig wide;
   wide.name = "wide.bag";
   wide.size = {3, 3};
-  EXPECT_EQ(
-      refusal(syntheticRecording(wide)),
-      "wide.bag: the matrix is 3 x 3, but that of synthetic.bag is 2 x 3; a calibration is of one matrix");
+  EXPECT_TRUE(test_support::holds(refusal(syntheticRecording(wide)),
+                                  {"wide.bag", "matrix is 3 x 3", "synthetic.bag", "2 x 3"}));
   other = bad;
   other.full_scale = 1023;
-  EXPECT_EQ(refusal(other),
-            "bad.bag: full_scale is 1023, but that of synthetic.bag is 4095; a calibration is of one matrix");
+  EXPECT_TRUE(
+      test_support::holds(refusal(other), {"bad.bag", "full_scale", "1023", "synthetic.bag", "4095"}));
   other = bad;
   other.sensor.serial = "0002";
-  EXPECT_EQ(
-      refusal(other),
-      "bad.bag: the serial number is \"0002\", but that of synthetic.bag is \"0001\"; a calibration is of "
-      "one matrix");
+  EXPECT_TRUE(
+      test_support::holds(refusal(other), {"bad.bag", "number is \"0002\"", "synthetic.bag", "\"0001\""}));
   other = bad;
   std::fill(other.pressure.begin(), other.pressure.end(), 3e3);
-  EXPECT_EQ(complaint({{other}, {}}),
-            "bad.bag: the chamber pressure never changes (3000 to 3000 Pa gauge), but training needs cycles");
+  EXPECT_TRUE(
+      test_support::holds(complaint({{other}, {}}), {"bad.bag", "the chamber pressure never changes"}));
   other = bad;
   std::fill(other.pressure.begin(), other.pressure.end(), std::nan(""));
   EXPECT_EQ(refusal(other), "bad.bag: no scan on \"flat\" has a chamber pressure");
   other = bad;
   other.pressure[7] = 1e9;
-  EXPECT_EQ(refusal(other),
-            "bad.bag: chamber pressure is 1000000000.000000 Pa, but must lie within +-8000000 Pa gauge");
-  EXPECT_EQ(refusal(bad), "bad.bag: has the same bytes as synthetic.bag; give each bag once");
+  EXPECT_TRUE(
+      test_support::holds(refusal(other), {"bad.bag", "pressure is 1000000000.000000 Pa", "+-8000000 Pa"}));
+  EXPECT_TRUE(
+      test_support::holds(refusal(bad), {"bad.bag", "synthetic.bag", "has the same bytes as synthetic.bag"}));
   other = dataset::Recording{};
   other.name = "bad.bag";
   other.losses.near_change = 12;
@@ -403,27 +400,26 @@ TEST(Calibrate, UnusableRecordingsAreRefusedInOneSentence) {
   half.sensor.model = "65535 counts = 0.1 S";
   half.name = "bad.bag";
   half.sha256 = "";
-  EXPECT_EQ(complaint({{one, half}, {}}),
-            "bad.bag: the scale of the readings is \"65535 counts = 0.1 S\", but that of " + good.name +
-                " is \"65535 counts = 0.2 S\"; convert both with the same --range");
+  EXPECT_TRUE(test_support::holds(complaint({{one, half}, {}}),
+                                  {"bad.bag", "readings is \"65535 counts = 0.1 S\"", good.name,
+                                   "is \"65535 counts = 0.2 S\"", "--range"}));
 }
 
 TEST(Calibrate, OptionsOutOfRangeAreRefused) {
   CalibrationProblem problem{{syntheticRecording({})}, {}};
   problem.options.folds = 1;
-  EXPECT_EQ(complaint(problem), "folds is 1, but must be 2 to 20");
+  EXPECT_TRUE(test_support::holds(complaint(problem), {"folds is 1", "2 to 20"}));
   problem.options.folds = 5;
   problem.options.regressor.grnn.bandwidth = 0;
-  EXPECT_EQ(complaint(problem),
-            "bandwidth is 0, but must be 1e-06 to 1000 standard deviations of the readings");
+  EXPECT_TRUE(test_support::holds(complaint(problem), {"bandwidth is 0", "1e-06 to 1000"}));
 }
 
 TEST(Calibrate, AMatrixWithoutReadingsIsRefused) {
   dataset::Recording recording = syntheticRecording({});
   for (std::size_t taxel = 0; taxel < 6; ++taxel) holdConstant(recording, taxel);
-  EXPECT_EQ(
-      complaint({{recording}, {}}),
-      "synthetic.bag: every taxel is masked or reads the same count throughout; is the matrix connected?");
+  EXPECT_TRUE(
+      test_support::holds(complaint({{recording}, {}}),
+                          {"synthetic.bag", "every taxel is masked or reads the same count throughout"}));
 }
 
 }  // namespace

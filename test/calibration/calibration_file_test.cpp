@@ -14,6 +14,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "support/file_complaint.h"
+#include "support/holds.h"
 #include "support/synthetic_recording.h"
 
 namespace fsr::calibration {
@@ -239,7 +240,7 @@ TEST_F(CalibrationFile, ACutFileIsRefused) {
   write(whole + "x");
   EXPECT_EQ(complaint(), damaged);
   write("");
-  EXPECT_EQ(complaint(), "is empty; train again, or copy the file again");
+  EXPECT_TRUE(test_support::holds(complaint(), {"is empty"}));
 }
 
 TEST_F(CalibrationFile, AForeignFileIsRefused) {
@@ -255,7 +256,7 @@ TEST_F(CalibrationFile, AForeignFileIsRefused) {
   EXPECT_EQ(complaint(), foreign);
   EXPECT_THROW(loadCalibration("/"), settings::InputError);
   std::remove(path_.c_str());
-  EXPECT_EQ(complaint(), "there is no such file");
+  EXPECT_TRUE(test_support::holds(complaint(), {"there is no such file"}));
 }
 
 TEST_F(CalibrationFile, AnUnknownSchemaIsRefusedByNumber) {
@@ -263,10 +264,10 @@ TEST_F(CalibrationFile, AnUnknownSchemaIsRefusedByNumber) {
   std::string content = bytes();
   content.replace(content.find("schema=2"), 8, "schema=7");
   write(content);
-  EXPECT_EQ(complaint(), "has schema 7, but this version reads up to 3; update the package");
+  EXPECT_TRUE(test_support::holds(complaint(), {"has schema 7"}));
   content.replace(content.find("schema=7"), 8, "schema=0");
   write(content);
-  EXPECT_EQ(complaint(), "has schema 0, but this version reads 1 to 3; train again");
+  EXPECT_TRUE(test_support::holds(complaint(), {"1 to 3", "has schema 0"}));
 }
 
 // The hash covers the content, not the first line.
@@ -275,9 +276,7 @@ TEST_F(CalibrationFile, AChangedSchemaIsRefused) {
   std::string content = bytes();
   content.replace(content.find("schema=2"), 8, "schema=1");
   write(content);
-  EXPECT_EQ(complaint(),
-            "is damaged: its first line names schema 1, but its content is of another; copy "
-            "the file again or train again");
+  EXPECT_TRUE(test_support::holds(complaint(), {"is damaged"}));
 }
 
 TEST_F(CalibrationFile, AFailedWriteKeepsTheOldFile) {

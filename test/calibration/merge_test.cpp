@@ -164,44 +164,46 @@ TEST(MergeRefuses, CalibrationsThatWereTrainedDifferently) {
 
   EXPECT_EQ(refusal(train({bags[2]}, grnn)), "merged");
   EXPECT_EQ(complaint({first}), "merging needs two calibration files or more");
-  EXPECT_EQ(refusal(train({bags[1]}, grnn)),
-            "b.h5: was trained on b.bag, as was a.h5; each bag may count once");
+  EXPECT_TRUE(test_support::holds(refusal(train({bags[1]}, grnn)),
+                                  {"b.h5", "b.bag", "a.h5", "was trained on b.bag"}));
   SyntheticRig wide;
   wide.size = {3, 3};
-  EXPECT_EQ(refusal(train({syntheticRecording(wide)}, grnn)),
-            "b.h5: the matrix is 3 x 3, but that of a.h5 is 2 x 3" + rest);
+  EXPECT_TRUE(test_support::holds(refusal(train({syntheticRecording(wide)}, grnn)),
+                                  {"b.h5", "matrix is 3 x 3", "a.h5", "2 x 3", rest}));
   SyntheticRig fine;
   fine.full_scale = 8191;
-  EXPECT_EQ(refusal(train({syntheticRecording(fine)}, grnn)),
-            "b.h5: full_scale is 8191, but that of a.h5 is 4095" + rest);
-  EXPECT_EQ(refusal(train({bags[2]}, setting("", compensation::Scheme::kPerCurvature, "grnn"))),
-            "b.h5: the scheme is per_curvature, but that of a.h5 is baseline" + rest);
-  EXPECT_EQ(refusal(train({bags[2]}, setting("", compensation::Scheme::kBaseline, "linear"))),
-            "b.h5: the model is linear, but that of a.h5 is grnn" + rest);
-  EXPECT_EQ(refusal(train({bags[2]}, setting("", compensation::Scheme::kBaseline, "grnn", true))),
-            "b.h5: the bandwidth is auto, but that of a.h5 is 0.0078125" + rest);
+  EXPECT_TRUE(test_support::holds(refusal(train({syntheticRecording(fine)}, grnn)),
+                                  {"b.h5", "full_scale", "8191", "a.h5", rest}));
+  EXPECT_TRUE(
+      test_support::holds(refusal(train({bags[2]}, setting("", compensation::Scheme::kPerCurvature, "grnn"))),
+                          {"b.h5", "scheme is per_curvature", "a.h5", rest}));
+  EXPECT_TRUE(
+      test_support::holds(refusal(train({bags[2]}, setting("", compensation::Scheme::kBaseline, "linear"))),
+                          {"b.h5", "a.h5", rest, "the model is linear"}));
+  EXPECT_TRUE(test_support::holds(
+      refusal(train({bags[2]}, setting("", compensation::Scheme::kBaseline, "grnn", true))),
+      {"b.h5", "a.h5", "0.0078125", rest}));
   Calibration other = train({bags[2]}, grnn);
   other.folds = 4;
-  EXPECT_EQ(refusal(other), "b.h5: the number of sections is 4, but that of a.h5 is 5" + rest);
+  EXPECT_TRUE(test_support::holds(refusal(other), {"b.h5", "sections is 4", "a.h5", rest}));
   other = train({bags[2]}, grnn);
   other.sensor.serial = "0002";
-  EXPECT_EQ(refusal(other), "b.h5: the serial number is \"0002\", but that of a.h5 is \"0001\"" + rest);
+  EXPECT_TRUE(test_support::holds(refusal(other), {"b.h5", "number is \"0002\"", "a.h5", "\"0001\"", rest}));
 }
 
 TEST(MergeRefuses, ModelsThatNeedTheBags) {
   const auto bags = threeBags();
   for (const std::string model : {"forest", "monotone"}) {
     const Setting set = setting("", compensation::Scheme::kBaseline, model);
-    EXPECT_EQ(
-        complaint({{"a.h5", train({bags[0]}, set)}, {"c.h5", train({bags[2]}, set)}}),
-        "a.h5: the model " + model +
-            " needs the bags; the sums in a calibration file are not sufficient; train on all bags instead");
+    EXPECT_TRUE(
+        test_support::holds(complaint({{"a.h5", train({bags[0]}, set)}, {"c.h5", train({bags[2]}, set)}}),
+                            {"a.h5", model, "needs the bags"}));
   }
   const Setting grnn = setting("", compensation::Scheme::kBaseline, "grnn");
   Calibration bare = train({bags[0]}, grnn);
   bare.statistics = nullptr;
-  EXPECT_EQ(complaint({{"a.h5", bare}, {"c.h5", train({bags[2]}, grnn)}}),
-            "a.h5: holds no statistics to merge; train on all bags instead");
+  EXPECT_TRUE(test_support::holds(complaint({{"a.h5", bare}, {"c.h5", train({bags[2]}, grnn)}}),
+                                  {"a.h5", "holds no statistics to merge"}));
 }
 
 TEST(MergeRefuses, CurvaturesThatWouldFormOtherClasses) {
@@ -210,10 +212,9 @@ TEST(MergeRefuses, CurvaturesThatWouldFormOtherClasses) {
   const Calibration pair = train({bag("pair.bag", 1, {{"one", 10.2}, {"two", 10.4}})}, grnn);
   const Calibration lower = train({bag("lower.bag", 2, {{"three", 10.0}})}, grnn);
   ASSERT_EQ(pair.tables.classes.size(), 1u);
-  EXPECT_EQ(
+  EXPECT_TRUE(test_support::holds(
       complaint({{"pair.h5", pair}, {"lower.h5", lower}}),
-      "pair.h5: its curvatures would form other classes together with those of the others; train on all "
-      "bags instead");
+      {"pair.h5", "its curvatures would form other classes together with those of the others"}));
 }
 
 TEST(MergeAccepts, FilesOfSchemaOne) {

@@ -13,10 +13,9 @@ TEST(Scheme, IsFoundByItsName) {
 }
 
 TEST(Scheme, AnUnknownNameIsRefusedWithTheKnownOnes) {
-  EXPECT_EQ(test_support::refusal([&] { schemeFromName("per_curve"); }),
-            "scheme is \"per_curve\", but must be one of flat_only, baseline, per_curvature, "
-            "curvature_input, one_hot, flat_or_curved, binary_input, scaled_curvature, curvature_map, "
-            "curvature_ranges, interpolated, per_surface");
+  EXPECT_TRUE(test_support::holds(
+      test_support::refusal([&] { schemeFromName("per_curve"); }),
+      {"scheme is \"per_curve\"", "flat_only", "per_curvature", "curvature_input", "per_surface"}));
 }
 
 }  // namespace

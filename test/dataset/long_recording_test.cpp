@@ -8,6 +8,7 @@
 #include "dataset/count_readers.h"
 #include "dataset/recording_builder.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "support/holds.h"
 
 namespace fsr::dataset {
 namespace {
@@ -93,10 +94,7 @@ TEST(LongRecording, NeedsAFolderThatCanBeWritten) {
     recorded(inOrder(), 20000);
     ADD_FAILURE() << "accepted";
   } catch (const settings::InputError& error) {
-    EXPECT_EQ(
-        std::string(error.what()),
-        "/nowhere: data of long recordings cannot be kept there (No such file or directory); set TMPDIR to a "
-        "folder with room for four times the size of all bags");
+    EXPECT_TRUE(test_support::holds(std::string(error.what()), {"/nowhere", "TMPDIR"}));
   }
   old.empty() ? unsetenv("TMPDIR") : setenv("TMPDIR", old.c_str(), 1);
 }

@@ -1,4 +1,4 @@
-#include "dataset/paces.h"
+#include "dataset/protocols.h"
 
 #include <gtest/gtest.h>
 

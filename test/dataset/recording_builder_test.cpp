@@ -259,8 +259,8 @@ TEST(RecordingBuilder, TakesAmbientPressureFromTheOptionThenTheMatrixThenTheStan
   std::vector<Event> events = {scan(ms(0), 1, 5), chamber(ms(0), 150e3)};
   const Recording assumed = build(events);
   EXPECT_EQ(assumed.pressure.at(0), 150e3 - 101325.0);
-  EXPECT_EQ(assumed.warnings.at(0), "no matrix_info is recorded; a pitch of 0.010 m is assumed");
-  EXPECT_EQ(assumed.warnings.at(1), "no ambient pressure is recorded; 101325 Pa is assumed");
+  EXPECT_TRUE(test_support::holds(assumed.warnings.at(0), {"matrix_info", "0.010 m"}));
+  EXPECT_TRUE(test_support::holds(assumed.warnings.at(1), {"101325 Pa", "no ambient pressure is recorded"}));
   events.push_back(description(110e3));
   EXPECT_EQ(build(events).pressure.at(0), 40e3);
   EXPECT_TRUE(build(events).warnings.empty());
@@ -270,9 +270,8 @@ TEST(RecordingBuilder, TakesAmbientPressureFromTheOptionThenTheMatrixThenTheStan
 TEST(RecordingBuilder, WarnsOfGaugeReadingsInTheChamberTopic) {
   const Recording recording = build({description(100e3), scan(ms(0), 1, 5), chamber(ms(0), 0.0)});
   ASSERT_EQ(recording.warnings.size(), 1u);
-  EXPECT_EQ(recording.warnings.front(),
-            "the lowest chamber pressure is -100 kPa gauge; chamber_pressure is absolute by definition: "
-            "check --ambient");
+  EXPECT_TRUE(test_support::holds(recording.warnings.front(),
+                                  {"pressure is -100 kPa", "chamber_pressure", "--ambient"}));
 }
 
 TEST(RecordingBuilder, BuildsARecordingWithoutReferenceAndSurface) {
@@ -311,32 +310,30 @@ TEST(RecordingBuilder, RefusesEventsOfTwoMatrices) {
   const auto other = [](RecordingBuilder& builder) {
     builder.addScan(ms(1), 1, matrix::view(matrix::Scan{{2, 2}, 4095, {1, 2, 3, 4}}));
   };
-  EXPECT_EQ(complaint({scan(ms(0), 1, 5), other}),
-            "raw holds scans of 1 x 2 taxels with full_scale 4095 and of 2 x 2 with 4095, but a recording is "
-            "of one matrix; choose it by its namespace");
-  EXPECT_EQ(complaint({scan(ms(0), 1, 5), description(0, "0001", {7, 10})}),
-            "matrix_info describes 7 x 10 taxels with full_scale 4095, but the scans in raw have 1 x 2 with "
-            "4095");
-  EXPECT_EQ(complaint({scan(ms(0), 1, 5), description(0, "0001"), description(0, "0002")}),
-            "matrix_info has the serial numbers \"0001\" and \"0002\", but a recording is of one matrix");
+  EXPECT_TRUE(test_support::holds(complaint({scan(ms(0), 1, 5), other}),
+                                  {"1 x 2 taxels", "full_scale 4095", "2 x 2"}));
+  EXPECT_TRUE(test_support::holds(complaint({scan(ms(0), 1, 5), description(0, "0001", {7, 10})}),
+                                  {"matrix_info", "7 x 10 taxels", "full_scale 4095", "1 x 2"}));
+  EXPECT_TRUE(
+      test_support::holds(complaint({scan(ms(0), 1, 5), description(0, "0001"), description(0, "0002")}),
+                          {"matrix_info", "\"0001\" and \"0002\""}));
 }
 
 TEST(RecordingBuilder, MalformedEventsAreRefused) {
   const auto malformed = [](const matrix::Scan& bad) {
     return [bad](RecordingBuilder& builder) { builder.addScan(ms(0), 1, matrix::view(bad)); };
   };
-  EXPECT_EQ(complaint({malformed({{1, 2}, 4095, {1}})}), "a scan holds 1 counts, but its size is 1 x 2");
-  EXPECT_EQ(complaint({malformed({{1, 1}, 1023, {1024}})}),
-            "a scan holds a count of 1024, but its full_scale is 1023");
-  EXPECT_EQ(complaint({malformed({{0, 0}, 1023, {}})}),
-            "a scan has 0 x 0 taxels, but must have 1 to 64 rows and columns");
+  EXPECT_TRUE(
+      test_support::holds(complaint({malformed({{1, 2}, 4095, {1}})}), {"1 counts", "size is 1 x 2"}));
+  EXPECT_TRUE(
+      test_support::holds(complaint({malformed({{1, 1}, 1023, {1024}})}), {"1024", "full_scale", "1023"}));
+  EXPECT_TRUE(test_support::holds(complaint({malformed({{0, 0}, 1023, {}})}), {"0 x 0 taxels", "1 to 64"}));
   EXPECT_EQ(complaint({}), "raw has no scan");
   const auto wide = [](RecordingBuilder& builder) {
     builder.addSurface(ms(0), {"limb", 1, std::vector<matrix::Curvature>(3), {}});
   };
-  EXPECT_EQ(
-      complaint({scan(ms(0), 1, 5), wide}),
-      "surface \"limb\" has 3 values, but must have one, or one for each of the 2 taxels of a 1 x 2 matrix");
+  EXPECT_TRUE(test_support::holds(complaint({scan(ms(0), 1, 5), wide}),
+                                  {"\"limb\"", "3 values", "2 taxels", "1 x 2"}));
 }
 
 // The training node gathers in one builder while it copies another.

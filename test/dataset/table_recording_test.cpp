@@ -199,7 +199,7 @@ TEST_F(Table, ReadsUtf8WithAByteOrderMarkAndRefusesUtf16) {
 TEST_F(Table, RefusesASpreadsheetInOneSentenceOfItsOwn) {
   for (const std::string begin : {"PK\x03\x04", "\xD0\xCF\x11\xE0"}) {  // .xlsx and .ods; .xls
     const std::string said = complaint(begin + std::string("\x14\0\x1B[31m\xB1,", 9), "time=t,reading=u");
-    EXPECT_EQ(said, path_ + ": is a spreadsheet or an archive, but must be text; save it as CSV");
+    EXPECT_TRUE(test_support::holds(said, {path_, "CSV"}));
   }
 }
 

@@ -6,7 +6,7 @@
 #include "dataset/table_recording.h"
 #include "discrepancy/samples/measured.h"
 #include "fsr_pressure_map/discrepancy/discrepancy.h"
-#include "simulation/driven_rig.h"
+#include "simulation/rig.h"
 #include "support/source_dir.h"
 
 namespace fsr::discrepancy {

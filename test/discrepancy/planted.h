@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "discrepancy/samples/measured.h"
-#include "simulation/driven_rig.h"
+#include "simulation/rig.h"
 #include "simulation/session.h"
 #include "simulation/settings_text.h"
 

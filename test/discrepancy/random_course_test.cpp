@@ -8,8 +8,8 @@
 #include <cmath>
 
 #include "discrepancy/planted.h"
-#include "simulation/driven_rig.h"
 #include "simulation/effects/effect_library.h"
+#include "simulation/rig.h"
 #include "statistics/random_stream.h"
 
 namespace fsr::discrepancy {

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "discrepancy/prove/recompute_gap.h"
-#include "simulation/driven_rig.h"
 #include "simulation/effects/effect_library.h"
+#include "simulation/rig.h"
 #include "simulation/taxel_curves.h"
 #include "support/source_dir.h"
 #include "support/synthetic_recording.h"

@@ -1,4 +1,4 @@
-#include "emulator/chamber.h"
+#include "emulator/emulator.h"
 
 #include <gtest/gtest.h>
 

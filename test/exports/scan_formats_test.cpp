@@ -10,6 +10,7 @@
 #include "exports/scan_examples.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "support/content_of.h"
+#include "support/holds.h"
 #include "support/line_format.h"
 #include "support/pty.h"
 
@@ -72,8 +73,7 @@ TEST(ScanFormats, TekscanRefusesACompressedOutput) {
       format.open(folder.path("a.asf.gz"), {});
       FAIL() << "opened";
     } catch (const fsr::settings::InputError& error) {
-      EXPECT_EQ(error.what(),
-                "--output is " + folder.path("a.asf.gz") + ", but only tables can be compressed");
+      EXPECT_TRUE(test_support::holds(error.what(), {"--output", folder.path("a.asf.gz")}));
     }
   }
 }

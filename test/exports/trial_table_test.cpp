@@ -8,8 +8,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "exports/region_readings.h"
 #include "exports/scan_examples.h"
-#include "exports/statistics_table.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "support/content_of.h"
 #include "support/holds.h"

@@ -17,7 +17,7 @@
 #include "fsr_pressure_map/calibration/calibrator.h"
 #include "fsr_pressure_map/protocol/wire.h"
 #include "protocol/board_reader.h"
-#include "protocol/packet_stamper.h"
+#include "protocol/device_clock.h"
 #include "protocol/serial_port.h"
 #include "support/pty.h"
 #include "support/small_tables.h"

@@ -44,7 +44,7 @@
 #include <thread>
 #include <vector>
 
-#include "emulator/chamber.h"
+#include "emulator/emulator.h"
 #include "emulator/pseudo_terminal.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "matrix/surface_file.h"

@@ -7,7 +7,7 @@
 
 #include "fsr_pressure_map/calibration/calibrator.h"
 #include "fuzz/fuzz_file.h"
-#include "protocol/packet_stamper.h"
+#include "protocol/device_clock.h"
 #include "protocol/wire_decoder.h"
 #include "support/packet_recorder.h"
 #include "support/small_tables.h"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "fuzz/fuzz_file.h"
-#include "protocol/packet_stamper.h"
+#include "protocol/device_clock.h"
 #include "protocol/text_decoder.h"
 #include "support/packet_recorder.h"
 

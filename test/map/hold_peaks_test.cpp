@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "map/hold_peaks.h"
+#include "fsr_pressure_map/map/pressure_map.h"
 
 namespace fsr::map {
 namespace {

@@ -1,4 +1,4 @@
-#include "protocol/packet_stamper.h"
+#include "protocol/device_clock.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "regression/code_samples.h"
+#include "regression/code_statistics.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
-#include "regression/linear_regression.h"
-
 #include <gtest/gtest.h>
+
+#include "regression/regressors.h"
 
 namespace fsr::regression {
 namespace {
@@ -10,7 +10,9 @@ Fit fit(const std::vector<std::uint16_t>& code, const std::vector<double>& press
   CodeSamples samples;
   samples.full_scale = full_scale;
   for (std::size_t i = 0; i < code.size(); ++i) samples.add(code[i], toFixed(pressure[i]));
-  return LinearRegression().fitSamples(samples);
+  RegressorOptions linear;
+  linear.name = "linear";
+  return makeRegressor(linear)->fitSamples(samples);
 }
 
 TEST(LinearRegression, AgreesWithScikitLearnAndR) {

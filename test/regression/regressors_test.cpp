@@ -180,8 +180,8 @@ TEST(Regressors, AreMadeByNameAndOtherNamesAreRefused) {
   }
   RegressorOptions other;
   other.name = "perceptron";
-  EXPECT_EQ(test_support::refusal([&] { makeRegressor(other); }),
-            "model is \"perceptron\", but must be one of linear, grnn, forest, monotone");
+  EXPECT_TRUE(
+      test_support::holds(test_support::refusal([&] { makeRegressor(other); }), {"model is \"perceptron\""}));
 }
 
 }  // namespace

@@ -9,7 +9,6 @@
 #include <fstream>
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "report/prediction_file.h"
 #include "support/example_discrepancy.h"
 #include "support/holds.h"
 

@@ -1,4 +1,4 @@
-#include "settings/file_kind.h"
+#include "settings/regular_file.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,6 @@
 #include <functional>
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "settings/fresh_file.h"
 #include "settings/replace_file.h"
 #include "support/pty.h"
 

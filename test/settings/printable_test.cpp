@@ -1,4 +1,4 @@
-#include "settings/printable.h"
+#include "settings/text.h"
 
 #include <gtest/gtest.h>
 

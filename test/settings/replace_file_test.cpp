@@ -34,9 +34,8 @@ TEST_F(ReplaceFile, LeavesOnlyTheNewContentAtThePath) {
 }
 
 TEST_F(ReplaceFile, NamesThePathWhereItsFolderIsMissing) {
-  EXPECT_EQ(test_support::refusal([&] { replaceFile("/nowhere/a.yaml", "x"); }),
-            "/nowhere/a.yaml: cannot be written (No such file or directory); give a path in a directory "
-            "that exists and may be written to");
+  EXPECT_TRUE(test_support::holds(test_support::refusal([&] { replaceFile("/nowhere/a.yaml", "x"); }),
+                                  {"/nowhere/a.yaml", "cannot be written"}));
 }
 
 TEST_F(ReplaceFile, KeepsOnlyTheOldContentWhereTheDiskIsFull) {

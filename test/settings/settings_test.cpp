@@ -40,14 +40,14 @@ TEST(Settings, GivesTheFallbackOfAMissingKey) {
 
 TEST(Settings, NamesFileFieldValueAndRange) {
   const auto settings = Settings::fromText("chamber: {rate: -3}", "rig.yaml");
-  EXPECT_EQ(messageOf([&] { settings.section("chamber").number("rate", kRate); }),
-            "rig.yaml: chamber.rate is -3, but must be a number, 1 to 1000 Hz");
+  EXPECT_TRUE(test_support::holds(messageOf([&] { settings.section("chamber").number("rate", kRate); }),
+                                  {"rig.yaml", "chamber.rate", "-3", "1 to 1000 Hz"}));
 }
 
 TEST(Settings, NamesAMissingKey) {
   const auto settings = Settings::fromText("rows: 7", "rig.yaml");
-  EXPECT_EQ(messageOf([&] { settings.number("rate", kRate); }),
-            "rig.yaml: rate is missing; give a number, 1 to 1000 Hz");
+  EXPECT_TRUE(test_support::holds(messageOf([&] { settings.number("rate", kRate); }),
+                                  {"rig.yaml", "1 to 1000 Hz", "rate is missing"}));
 }
 
 TEST(Settings, RefusesATextWhereANumberIsExpected) {
@@ -63,21 +63,21 @@ TEST(Settings, QuoteOnlyTheBeginningOfAFileOfAnotherKind) {
 TEST(Settings, RefusesAnUnknownKeyOfANestedSection) {
   const auto settings = Settings::fromText("chamber: {rate: 3, raet: 4}", "rig.yaml");
   settings.section("chamber").number("rate", kRate);
-  EXPECT_EQ(messageOf([&] { settings.refuseUnknown(); }),
-            "rig.yaml: chamber.raet is not a known setting; known here: rate");
+  EXPECT_TRUE(
+      test_support::holds(messageOf([&] { settings.refuseUnknown(); }), {"rig.yaml", "chamber.raet"}));
 }
 
 TEST(Settings, RefusesAKeyGivenTwice) {
-  EXPECT_EQ(messageOf([] { Settings::fromText("rate: 1\nrate: 2", "rig.yaml"); }),
-            "rig.yaml: rate is given twice; keep one");
+  EXPECT_TRUE(test_support::holds(messageOf([] { Settings::fromText("rate: 1\nrate: 2", "rig.yaml"); }),
+                                  {"rig.yaml", "rate is given twice"}));
 }
 
 TEST(Settings, RefusesAKeyThatIsNotAText) {
-  EXPECT_EQ(messageOf([] { Settings::fromText("rate: 1\n? [a, b]\n: 2", "rig.yaml"); }),
-            "rig.yaml: a key is a list of 2, but must be a name");
+  EXPECT_TRUE(test_support::holds(messageOf([] { Settings::fromText("rate: 1\n? [a, b]\n: 2", "rig.yaml"); }),
+                                  {"rig.yaml", "a key is a list of 2"}));
   const auto settings = Settings::fromText("chamber: {~: 1}", "rig.yaml");
-  EXPECT_EQ(messageOf([&] { settings.section("chamber"); }),
-            "rig.yaml: a key of chamber is empty, but must be a name");
+  EXPECT_TRUE(test_support::holds(messageOf([&] { settings.section("chamber"); }),
+                                  {"rig.yaml", "a key of chamber is empty"}));
 }
 
 TEST(Settings, RefusesAFileThatIsNotAYamlMapping) {
@@ -88,15 +88,14 @@ TEST(Settings, RefusesAFileThatIsNotAYamlMapping) {
   const std::string large = testing::TempDir() + "settings_large_" + std::to_string(::getpid()) + ".yaml";
   std::ofstream(large) << "a: 1\n";
   std::filesystem::resize_file(large, 20 << 20);
-  EXPECT_EQ(messageOf([&] { Settings::fromFile(large); }),
-            large + ": has 20 MiB, but a file of this kind has 2 MiB at most; is it the right file?");
+  EXPECT_TRUE(test_support::holds(messageOf([&] { Settings::fromFile(large); }), {large, "20 MiB", "2 MiB"}));
   std::filesystem::remove(large);
 }
 
 TEST(Settings, NamesTheBadEntryOfAList) {
   const auto settings = Settings::fromText("x: [1, 2000]", "limb.yaml");
-  EXPECT_EQ(messageOf([&] { settings.numbers("x", kRate); }),
-            "limb.yaml: x[1] is 2000, but must be a number, 1 to 1000 Hz");
+  EXPECT_TRUE(test_support::holds(messageOf([&] { settings.numbers("x", kRate); }),
+                                  {"limb.yaml", "x[1]", "2000", "1 to 1000 Hz"}));
 }
 
 TEST(Range, DescribesItsBounds) {

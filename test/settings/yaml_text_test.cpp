@@ -1,4 +1,4 @@
-#include "settings/yaml_text.h"
+#include "settings/text.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "simulation/driven_rig.h"
+#include "simulation/rig.h"
 
 #include <gtest/gtest.h>
 

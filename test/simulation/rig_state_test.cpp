@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "simulation/driven_rig.h"
 #include "simulation/session.h"
 #include "simulation/settings_text.h"
 

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <map>
 
-#include "settings/yaml_text.h"
+#include "settings/text.h"
 #include "simulation/effects/effect_library.h"
 #include "simulation/pressure_profile.h"
 #include "simulation/sensor_chain.h"

@@ -1,4 +1,4 @@
-#include "statistics/reference_scatter.h"
+#include "statistics/error_bins.h"
 
 #include <gtest/gtest.h>
 

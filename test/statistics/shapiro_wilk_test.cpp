@@ -66,10 +66,10 @@ TEST(ShapiroWilk, RefusesUnusableData) {
 }
 
 TEST(ShapiroWilk, SaysWhichValueIsBad) {
-  EXPECT_EQ(test_support::refusal([&] {
-              shapiroWilk({1, std::nan(""), 3});
-            }),
-            "Shapiro-Wilk test: value 2 of 3 is NaN; leave its unit out of every treatment");
+  EXPECT_TRUE(test_support::holds(test_support::refusal([&] {
+                                    shapiroWilk({1, std::nan(""), 3});
+                                  }),
+                                  {"2 of 3", "NaN", "Shapiro-Wilk test"}));
 }
 
 }  // namespace

@@ -134,10 +134,7 @@ TEST(StudyHistory, IsBetterThanTheStaticAnswerOnProtocolsThatWereLeftOut) {
 TEST(StudyHistory, IsNotAssessableOnOneProtocol) {
   const StudyResult result = study(memoryProblem({{8, 600e3, 20e3, 2, 2}}));
   EXPECT_EQ(splitOf(result, "leave_protocol_out"), nullptr);
-  EXPECT_EQ(
-      result.history.choice,
-      "not assessable: all cycles of the bags have one protocol, so that no protocol can be left out; "
-      "record cycles with two paces, with short and long dwells and with partial cycles on each surface.");
+  EXPECT_TRUE(test_support::holds(result.history.choice, {"not assessable"}));
 }
 
 // The chamber's pressure in a protocol has no part in what predicts the protocol.

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "exports/scan_formats.h"
-#include "settings/fresh_file.h"
+#include "settings/replace_file.h"
 
 namespace test_support {
 

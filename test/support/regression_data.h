@@ -1,6 +1,6 @@
 #pragma once
 
-#include "regression/code_samples.h"
+#include "regression/code_statistics.h"
 
 namespace test_support {
 

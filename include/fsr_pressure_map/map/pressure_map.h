@@ -65,4 +65,9 @@ struct PressureMap {
   void reset(const matrix::Layout& new_layout);
 };
 
+/// Makes `peaks` the map of the highest pressure of each taxel, with its deviation and flags: those of `map`
+/// where it is higher, where `peaks` has no reading, or where `peaks` is of another size. The state is that
+/// of `map`.
+void holdPeaks(const PressureMap& map, PressureMap& peaks);
+
 }  // namespace fsr::map

@@ -12,9 +12,7 @@
 
 #include "calibration/file/calibration_hdf5.h"
 #include "fsr_pressure_map/settings/input_error.h"
-#include "settings/file_kind.h"
 #include "settings/foreign_error.h"
-#include "settings/fresh_file.h"
 #include "settings/regular_file.h"
 #include "settings/replace_file.h"
 #include "settings/sha256.h"

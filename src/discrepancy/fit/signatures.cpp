@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dataset/unnamed_file.h"
+#include "dataset/count_readers.h"
 #include "matrix/for_each_taxel.h"
 #include "simulation/sensitivity.h"
 

@@ -7,8 +7,8 @@
 #include "discrepancy/fit/static_fit.h"
 #include "discrepancy/samples/measured.h"
 #include "fsr_pressure_map/dataset/recording.h"
-#include "simulation/driven_rig.h"
 #include "simulation/effects/effect_library.h"
+#include "simulation/rig.h"
 
 namespace fsr::discrepancy {
 

@@ -12,7 +12,7 @@
 #include "discrepancy/fit/parameter_fit.h"
 #include "discrepancy/samples/views.h"
 #include "settings/sha256.h"
-#include "settings/yaml_text.h"
+#include "settings/text.h"
 #include "simulation/effects/effect_library.h"
 #include "simulation/settings_text.h"
 #include "simulation/taxel_curves.h"

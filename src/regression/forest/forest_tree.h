@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "regression/code_samples.h"
+#include "regression/code_statistics.h"
 #include "regression/forest/forest.h"
 #include "statistics/random_stream.h"
 

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "regression/code_samples.h"
 #include "regression/code_statistics.h"
 #include "regression/regressor.h"
 

@@ -38,7 +38,8 @@ std::string testText(const statistics::TestResult& test, double p) {
 
 std::string scoreTable(const std::vector<study::StudyScore>& scores, const matrix::Layout& layout) {
   TextTable table({"", "R2", "paper", "RMSE%", "paper", "RMSE", "bias", "p95", "worst taxel", ""}, {9});
-  table.row({"", "", "", "", "", "kPa", "kPa", "kPa", "RMSE%"});
+  const std::string unit = settings::shownUnitName();
+  table.row({"", "", "", "", "", unit, unit, unit, "RMSE%"});
   for (const study::StudyScore& score : scores) {
     const study::PaperScore paper =
         study::paperScore(score.id == "grnn" ? "baseline" : score.id).value_or(study::PaperScore{});
@@ -46,8 +47,8 @@ std::string scoreTable(const std::vector<study::StudyScore>& scores, const matri
     const std::size_t worst = score.worst_taxel;
     table.row({score.label, spread(score.r2_spread, 3, 4), spread(paper.r2, 2, 4),
                spread(score.rmse_percent_spread, 2, 2), spread(paper.rmse_percent, 2, 2),
-               number(errors.rmse / 1e3, 1), number(errors.bias / 1e3, 1),
-               number(errors.p95_absolute / 1e3, 1), number(score.worst_rmse_percent, 2),
+               inShownUnit(errors.rmse), number(errors.bias / settings::shownUnitSize(), 1),
+               inShownUnit(errors.p95_absolute), number(score.worst_rmse_percent, 2),
                "row " + std::to_string(layout.row({worst})) + ", column " +
                    std::to_string(layout.column({worst})) + " (taxel " + std::to_string(worst) + ")"});
   }
@@ -77,7 +78,7 @@ std::string comparisonText(const study::StudyComparison& comparison, const matri
 std::string splitText(const study::SplitResult& split) {
   TextTable table({}, {1});
   for (const study::StudyScore& score : split.scores) {
-    table.row({"  " + score.id, inShownUnit(score.errors.whole.all.rmse) + " kPa  (" +
+    table.row({"  " + score.id, settings::fixedPressure(score.errors.whole.all.rmse, 1) + "  (" +
                                     inShownUnit(score.rmse_interval.low) + " to " +
                                     inShownUnit(score.rmse_interval.high) + "), RMSE% " +
                                     number(score.rmse_percent_spread.mean, 2)});
@@ -116,7 +117,8 @@ std::string curvatureErrorText(const std::vector<study::CurvatureErrorCurve>& cu
   const double none = std::numeric_limits<double>::quiet_NaN();
   return "\nError of the map against error of the curvature: five_sections, trained with the right "
          "curvatures, told wrong ones\n" +
-         errorTable("RMSE [kPa]", curves, [](const Score& score) { return inShownUnit(score.rmse); }) +
+         errorTable("RMSE [" + settings::shownUnitName() + "]", curves,
+                    [](const Score& score) { return inShownUnit(score.rmse); }) +
          errorTable("RMSE [% of range]", curves,
                     [](const Score& score) { return settings::fixedText(score.rmse_percent, 2); }) +
          errorTable(

@@ -3,7 +3,7 @@
 #include <numeric>
 #include <sstream>
 
-#include "calibration/stages/deviation/deviation_text.h"
+#include "calibration/stages/deviation/interval_tally.h"
 #include "check/check.h"
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "fsr_pressure_map/settings/input_error.h"

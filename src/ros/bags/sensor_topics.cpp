@@ -8,7 +8,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "settings/foreign_error.h"
-#include "settings/joined.h"
+#include "settings/text.h"
 
 namespace fsr_ros {
 

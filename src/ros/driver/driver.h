@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "protocol/board_reader.h"
-#include "protocol/packet_stamper.h"
+#include "protocol/device_clock.h"
 #include "ros/driver/driver_health.h"
 #include "ros/live/parameters.h"
 #include "ros/messages/driver_messages.h"

@@ -10,7 +10,7 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "ros/live/serve.h"
 #include "settings/number_text.h"
-#include "settings/yaml_text.h"
+#include "settings/text.h"
 
 namespace fsr_ros {
 
@@ -48,8 +48,7 @@ AlarmDesk::AlarmDesk(const ros::NodeHandle& handle, const ros::NodeHandle& priva
 }
 
 std::string AlarmDesk::text(double pressure) const {
-  return fsr::settings::roundedText(pressure / fsr::settings::pascals(unit_), 4) + ' ' +
-         fsr::settings::name(unit_);
+  return fsr::settings::roundedPressure(pressure, 4, unit_);
 }
 
 bool AlarmDesk::any() const {

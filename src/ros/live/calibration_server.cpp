@@ -1,4 +1,3 @@
-#include "ros/live/servers.h"
 
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <fsr_pressure_map/Event.h>

@@ -1,4 +1,3 @@
-#include "ros/live/servers.h"
 
 #include <fsr_pressure_map/SetSurface.h>
 #include <ros/console.h>
@@ -17,7 +16,6 @@
 #include "matrix/surface_file.h"
 #include "ros/bags/resource_path.h"
 #include "ros/bags/surface_folder.h"
-#include "ros/bags/surface_memory.h"
 #include "ros/live/parameters.h"
 #include "ros/live/serve.h"
 #include "ros/messages/surface_message.h"

@@ -1,4 +1,4 @@
-#include "ros/live/servers.h"
+#include "ros/live/serve.h"
 
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <fsr_pressure_map/MatrixInfo.h>

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "ros/bags/resource_path.h"
-#include "settings/joined.h"
+#include "settings/text.h"
 
 namespace fsr_ros {
 

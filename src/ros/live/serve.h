@@ -1,6 +1,7 @@
 #pragma once
 
 #include <ros/console.h>
+#include <ros/node_handle.h>
 #include <ros/ros.h>
 
 #include <functional>
@@ -10,7 +11,7 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "ros/live/parameters.h"
 #include "settings/foreign_error.h"
-#include "settings/printable.h"
+#include "settings/text.h"
 
 namespace fsr_ros {
 
@@ -39,5 +40,70 @@ bool answer(Response& response, Action action) {
   }
   return true;
 }
+
+// The servers of nodes that do everything in callbacks. Each lives as long as what is returned. Each throws
+// fsr::InputError for parameters that cannot be used.
+
+/// Status of /diagnostics whose keys are the namespaces of the sheets round one limb.
+constexpr char kSheetsTask[] = "sheets";
+
+using Server = std::shared_ptr<void>;
+using MakeServer = Server (*)(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle);
+
+template <typename Of>
+Server makeServer(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle) {
+  return std::make_shared<Of>(handle, private_handle);
+}
+
+/// Converts each scan on `raw` to a map on `pressure_map`, using `curvature`, `temperature` and
+/// `matrix_info`. Publishes `calibration_info` (latched and repeated each second) and diagnostics. Compares
+/// the surface with the sheet at rest: by itself with `chamber_pressure` and at each event doff on `events`.
+/// Parameters: CalibrationSettings.
+///
+/// Services: `~load_calibration`, `~reload`, `~set_mask`, `~tare`, `~clear_tare`, `~check_surface`,
+/// `~estimate_surface`. Each reply says what was done. The services and the first load run in a separate
+/// thread, so that no scan waits for a file. If the file in `~calibration` does not exist or cannot be read,
+/// the node tries again when the file changes.
+Server makeCalibrationServer(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle);
+
+/// Publishes the surface under the matrix on `curvature`, latched and repeated each second of ROS time, so
+/// that every part of a bag contains it. The service `~set_surface` changes the surface. Where the surface
+/// file names a scan, the scan is published on `mesh` (MeshPublisher).
+///
+/// Parameters: `~surface` (name of a file in `~surfaces`, or path of a surface file; empty = unknown until
+/// the service is called), `~surfaces` (folder of surface files), `~mount`, `~rows` and `~columns` (surface
+/// files with one value for each taxel must fit them), `~frame_id` (of the matrix), `~mesh_frame` (of scans,
+/// or of the limb; empty = no transform), `~around` [degrees] and `~along` [m] (place on the limb without a
+/// scan, see matrix::onLimb()),
+/// `~surface_file` (keeps what ~set_surface said, for a node that died; see SurfaceMemory).
+Server makeCurvatureServer(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle);
+
+/// Combines the statistics of several sheets round one limb. Sums the topics in `~sheets` (separated by
+/// spaces or commas) by region name, and publishes `limb_statistics` for every message of any sheet. A sheet
+/// without a message for `~stale_after` [s] is left out of the sums, and every alarm that is not ALARM
+/// becomes UNKNOWN. Diagnostics report silent sheets, and two whose boards have one serial number.
+Server makeLimbServer(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle);
+
+/// Collects messages from the topics raw, chamber_pressure, curvature, temperature and matrix_info, sent by
+/// `rosbag play` or a rig. The service `~train` trains a calibration from them, and `~clear` removes them. If
+/// one bag was replayed without loss, the tables are those of the tool `train`, bit for bit.
+///
+/// Training runs in the thread of the service call. With two or more spinner threads, the node goes on
+/// collecting meanwhile. From `~most_messages` on, further messages are left out. `~gathered`
+/// (diagnostic_msgs/DiagnosticStatus, latched) reports what has come and what is missing.
+///
+/// Parameters: ~output, ~report, ~scheme, ~model, ~bandwidth, ~spread, ~distance, ~equal_bins, ~trees,
+/// ~minimum_leaf, ~leaf_rule, ~folds, ~scores, ~threads, ~seed, ~ambient_pressure, ~most_messages; see
+/// train.launch and docs/nodes.md.
+Server makeTrainingServer(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle);
+
+/// Publishes pictures and statistics of the pressure map in the frame of the scan: `points`, `surface`,
+/// `image`, `statistics`, `centre_of_pressure`. The sheet is bent as `curvature` says, and flat while the
+/// curvature is unknown. The node receives maps only while one of its topics has a subscriber or an alarm is
+/// set. `surface` and `image` are published at most at `~rate`, the other topics for every map. The
+/// pressure-time integral begins with the first subscriber. When maps stop, all alarms become UNKNOWN, and
+/// `surface` and `image` lose their colours unless the ROS time stands still, as in a paused replay. The
+/// service `~set_alarm` sets alarms; they are logged and published on `events`. Parameters: ViewSettings.
+Server makeViewServer(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle);
 
 }  // namespace fsr_ros

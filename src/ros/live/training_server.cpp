@@ -1,4 +1,3 @@
-#include "ros/live/servers.h"
 
 #include <diagnostic_msgs/DiagnosticStatus.h>
 #include <ros/ros.h>
@@ -19,7 +18,7 @@
 #include "ros/bags/training_options.h"
 #include "ros/live/parameters.h"
 #include "ros/live/serve.h"
-#include "settings/file_kind.h"
+#include "settings/regular_file.h"
 #include "settings/replace_file.h"
 
 namespace fsr_ros {

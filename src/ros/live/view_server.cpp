@@ -1,4 +1,4 @@
-#include "ros/live/servers.h"
+#include "ros/live/serve.h"
 
 #include <fsr_pressure_map/PressureMap.h>
 #include <fsr_pressure_map/PressureStatisticsArray.h>

@@ -13,7 +13,7 @@
 
 #include "fsr_pressure_map/matrix/layout.h"
 #include "fsr_pressure_map/protocol/decoder.h"
-#include "protocol/packet_stamper.h"
+#include "protocol/device_clock.h"
 
 namespace fsr_ros {
 

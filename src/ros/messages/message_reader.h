@@ -11,10 +11,34 @@
 #include <string_view>
 #include <vector>
 
-#include "exports/message_type.h"
 #include "fsr_pressure_map/settings/input_error.h"
 
 namespace fsr_ros {
+
+/// A field of a message. It has fields itself if it is a message.
+struct MessageField {
+  enum class Count { kOne, kFixed, kAny };
+
+  Count count = Count::kOne;
+  std::size_t fixed = 1;  ///< number of values for kFixed
+  bool nested = false;    ///< whether it is a message: then `fields` is used, else `size`
+  std::size_t size = 0;   ///< of one serialised value [bytes]; 0 = a text, whose length stands before it
+  std::vector<MessageField> fields;
+};
+
+/// The structure of a ROS message type, from the definition in a bag.
+struct MessageType {
+  std::vector<MessageField> fields;
+};
+
+/// Parses a definition as in a bag's connection: the text of the message, then the texts of the types that it
+/// uses, separated by a line of "=" and a line "MSG: name". Throws fsr::InputError if a type is missing or a line
+/// is invalid.
+MessageType parseMessageType(const std::string& name, const std::string& definition);
+
+/// Whether the bytes are exactly one message of the type, from first to last. To be checked before memory is
+/// allocated by the lengths that a message states. Reads no byte outside.
+bool isMessageOf(const MessageType& type, std::string_view bytes);
 
 /// Whether a message type of this package once had the definition of this MD5 sum, with the same fields in
 /// the same order as today. ROS counts a new constant as another definition, but the recorded bytes are the
@@ -56,9 +80,9 @@ void requireDefinition(const std::string& topic, const std::string& md5sum) {
 /// the length says, up to 16 GB.
 template <typename Message>
 void readMessage(std::uint8_t* bytes, std::size_t size, Message& message) {
-  static const fsr::exports::MessageType structure = fsr::exports::parseMessageType(
+  static const MessageType structure = parseMessageType(
       ros::message_traits::datatype<Message>(), ros::message_traits::definition<Message>());
-  if (!fsr::exports::isMessageOf(structure, {reinterpret_cast<const char*>(bytes), size})) {
+  if (!isMessageOf(structure, {reinterpret_cast<const char*>(bytes), size})) {
     throw ros::serialization::StreamOverrunException("");
   }
   ros::serialization::IStream from(bytes, static_cast<std::uint32_t>(size));

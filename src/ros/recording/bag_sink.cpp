@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "ros/bags/fresh_bag.h"
+#include "ros/bags/bag_writer.h"
 #include "settings/number_text.h"
 
 namespace fsr_ros {

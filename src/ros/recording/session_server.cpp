@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "ros/bags/resource_path.h"
-#include "settings/joined.h"
 #include "settings/number_text.h"
+#include "settings/text.h"
 
 namespace fsr_ros {
 

@@ -1,5 +1,6 @@
-#include "ros/rviz/pressure_map_display.h"
-
+#ifndef Q_MOC_RUN
+#include <fsr_pressure_map/CalibrationInfo.h>
+#include <fsr_pressure_map/PressureMap.h>
 #include <rviz/display_context.h>
 #include <rviz/display_group.h>
 #include <rviz/properties/bool_property.h>
@@ -12,7 +13,10 @@
 
 #include "fsr_pressure_map/ros/pressure_map_message.h"
 #include "fsr_pressure_map/settings/input_error.h"
-#include "map/hold_peaks.h"
+#include "fsr_pressure_map/view/heat_map.h"
+#include "ros/rviz/sheet_display.h"
+#include "view/legend.h"
+#endif
 
 namespace fsr_rviz {
 
@@ -23,7 +27,82 @@ constexpr std::uint32_t kMapQueue = 1000;  // peaks are held through a second wi
 constexpr double kUsualRange = 600e3;      // until a calibration tells its own [Pa]
 constexpr double kDeviationShare = 0.1;    // of the pressures' range: a good map has a few per cent
 
+// The flags of a taxel in words, e.g. "saturated, tared"; "none" without flags.
+std::string flagsText(std::uint16_t flags) {
+  using namespace fsr::map::taxel_flag;
+  static const std::pair<std::uint16_t, const char*> names[] = {
+      {kSaturated, "saturated"},
+      {kDead, "dead"},
+      {kStuck, "stuck"},
+      {kReadingExtrapolated, "reading beyond training"},
+      {kCurvatureExtrapolated, "curvature beyond training"},
+      {kBetweenClasses, "between curvature classes"},
+      {kFilled, "filled from its neighbours"},
+      {kMasked, "masked"},
+      {kLineFault, "line fault"},
+      {kTared, "tared"},
+      {kBelowRange, "below range"},
+      {kTemperatureExtrapolated, "temperature beyond training"},
+      {kHistoryShort, "history not settled"},
+  };
+  std::string result;
+  for (const auto& [flag, words] : names) {
+    if ((flags & flag) != 0) result += (result.empty() ? "" : ", ") + std::string(words);
+  }
+  return result.empty() ? "none" : result;
+}
+
 }  // namespace
+
+/// Shows a PressureMap on the bent sheet: gauge pressure or its standard deviation, in kPa or mmHg. The
+/// bright end of the colours is, unless it is set, that of the training range in `calibration_info` in the
+/// namespace of the maps; of several displays, the highest, so that they have one scale.
+class PressureMapDisplay : public SheetDisplay {
+  Q_OBJECT
+
+ public:
+  PressureMapDisplay();
+
+ protected:
+  ros::Subscriber listen(const std::string& topic) override;
+  void paint(SheetPicture& picture) override;
+  fsr::view::Legend legend() const override;
+  ReadOut readOut(std::size_t taxel) const override;
+  void sayState() override;
+  void forget() override {
+    last_.reset();
+    peaks_ = {};
+  }
+
+ private Q_SLOTS:
+  void updateHold();
+
+ private:
+  void onInfo(const fsr_pressure_map::CalibrationInfoConstPtr& message);
+  double trainedHigh() const;
+  double highEnd() const;
+  void onMap(const fsr_pressure_map::PressureMapConstPtr& message);
+  fsr::view::MapLayer layer() const;
+  fsr::view::PressureScale scale() const;
+  void followPeaks();
+  void hold();
+  /// Part of the taxels of the last map whose history is not settled; 0 without a map.
+  double unsettledShare() const;
+
+  rviz::EnumProperty* layer_;
+  rviz::EnumProperty* unit_;
+  rviz::FloatProperty* low_;
+  rviz::FloatProperty* high_;
+  rviz::BoolProperty *auto_range_, *hold_;
+
+  ros::Subscriber infos_;
+  double trained_high_ = 0;  // of the calibration in use [Pa]; 0 = not known
+  fsr_pressure_map::PressureMapConstPtr last_;
+  fsr::map::PressureMap map_;    // what is shown
+  fsr::map::PressureMap peaks_;  // of each taxel, while they are held
+  fsr::view::AutoRange range_;
+  double auto_high_ = 0;  // [Pa]
+};
 
 PressureMapDisplay::PressureMapDisplay() : SheetDisplay("map") {
   addSource(ros::message_traits::datatype<fsr_pressure_map::PressureMap>(), "Pressure maps to show.");
@@ -169,30 +248,8 @@ double PressureMapDisplay::unsettledShare() const {
   return last_ ? fsr::map::unsettledShare(map_.pressure, map_.flags) : 0;
 }
 
-std::string flagsText(std::uint16_t flags) {
-  using namespace fsr::map::taxel_flag;
-  static const std::pair<std::uint16_t, const char*> names[] = {
-      {kSaturated, "saturated"},
-      {kDead, "dead"},
-      {kStuck, "stuck"},
-      {kReadingExtrapolated, "reading beyond training"},
-      {kCurvatureExtrapolated, "curvature beyond training"},
-      {kBetweenClasses, "between curvature classes"},
-      {kFilled, "filled from its neighbours"},
-      {kMasked, "masked"},
-      {kLineFault, "line fault"},
-      {kTared, "tared"},
-      {kBelowRange, "below range"},
-      {kTemperatureExtrapolated, "temperature beyond training"},
-      {kHistoryShort, "history not settled"},
-  };
-  std::string result;
-  for (const auto& [flag, words] : names) {
-    if ((flags & flag) != 0) result += (result.empty() ? "" : ", ") + std::string(words);
-  }
-  return result.empty() ? "none" : result;
-}
-
 }  // namespace fsr_rviz
+
+#include "pressure_map_display.moc"
 
 PLUGINLIB_EXPORT_CLASS(fsr_rviz::PressureMapDisplay, rviz::Display)

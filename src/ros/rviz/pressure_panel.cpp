@@ -27,7 +27,7 @@
 #include "dataset/recording_builder.h"
 #include "fsr_pressure_map/view/colour_map.h"
 #include "ros/live/calibration_health.h"
-#include "ros/live/servers.h"
+#include "ros/live/serve.h"
 #include "ros/rviz/taxel_selection.h"
 
 namespace fsr_rviz {

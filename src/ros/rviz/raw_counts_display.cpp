@@ -1,11 +1,14 @@
-#include "ros/rviz/raw_counts_display.h"
-
+#ifndef Q_MOC_RUN
+#include <fsr_pressure_map/MatrixFrame.h>
+#include <fsr_pressure_map/MatrixInfo.h>
 #include <rviz/properties/float_property.h>
 #include <pluginlib/class_list_macros.hpp>
 
 #include <cmath>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "ros/rviz/sheet_display.h"
+#endif
 
 namespace fsr_rviz {
 
@@ -25,6 +28,34 @@ fsr::matrix::Layout layoutOf(const fsr_pressure_map::MatrixFrame& scan,
 }
 
 }  // namespace
+
+/// Shows the counts of a scan on the bent sheet, without calibration, on a scale of counts. The pitch is that
+/// of `matrix_info` in the namespace of the scans, or 10 mm until it has come.
+class RawCountsDisplay : public SheetDisplay {
+  Q_OBJECT
+
+ public:
+  RawCountsDisplay();
+
+ protected:
+  ros::Subscriber listen(const std::string& topic) override;
+  void paint(SheetPicture& picture) override;
+  fsr::view::Legend legend() const override;
+  ReadOut readOut(std::size_t taxel) const override;
+  void sayState() override;
+  void forget() override { last_.reset(); }
+
+ private:
+  void onScan(const fsr_pressure_map::MatrixFrameConstPtr& message);
+  void onInfo(const fsr_pressure_map::MatrixInfoConstPtr& message) { info_ = message; }
+  fsr::view::PressureScale scale() const;
+
+  rviz::FloatProperty* high_;
+  ros::Subscriber infos_;
+  fsr_pressure_map::MatrixInfoConstPtr info_;
+  fsr_pressure_map::MatrixFrameConstPtr last_;
+  int full_scale_ = 0;  // full scale of the scan that is drawn [counts]
+};
 
 RawCountsDisplay::RawCountsDisplay() : SheetDisplay("scan") {
   addSource(ros::message_traits::datatype<fsr_pressure_map::MatrixFrame>(), "Raw scans to show.");
@@ -93,5 +124,7 @@ void RawCountsDisplay::sayState() {
 }
 
 }  // namespace fsr_rviz
+
+#include "raw_counts_display.moc"
 
 PLUGINLIB_EXPORT_CLASS(fsr_rviz::RawCountsDisplay, rviz::Display)

@@ -5,6 +5,7 @@
 #include <ros/time.h>
 #include <rviz/display.h>
 
+#include <QRect>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -16,7 +17,7 @@
 #include "ros/rviz/sheet_letters.h"
 #include "ros/rviz/sheet_visual.h"
 #include "ros/rviz/taxel_selection.h"
-#include "ros/rviz/view_fitter.h"
+#include "view/fit_view.h"
 #include "view/legend.h"
 #endif
 
@@ -37,6 +38,17 @@ constexpr std::uint32_t kQueueSize = 10;  ///< of the topics of a display [messa
 /// A property with a choice of names. Its option value is the index in `options`.
 rviz::EnumProperty* choice(const char* name, const std::vector<std::string>& options, const char* help,
                            rviz::Property* parent, const char* slot);
+
+/// Moves the orbiting view of rviz so that points of the fixed frame fill the window beside or below a
+/// legend, until the user moves the view.
+class ViewFitter {
+ public:
+  /// `legend`: its place in the scene [pixels], empty = none. False where the user has moved the view.
+  bool fit(rviz::DisplayContext& context, const std::vector<fsr::view::Vector3>& points, const QRect& legend);
+
+ private:
+  std::optional<fsr::view::OrbitCamera> last_;  // the view as it was set
+};
 
 /// Base class of displays that draw values on a bent sheet. It handles curvature, mesh, marks, legend, title,
 /// position, selection, and a status that says why nothing is shown. A derived class subscribes to its data

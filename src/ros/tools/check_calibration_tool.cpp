@@ -19,8 +19,8 @@
 #include "ros/tools/tool_options.h"
 #include "ros/tools/tools.h"
 #include "settings/command_line.h"
-#include "settings/file_kind.h"
 #include "settings/foreign_error.h"
+#include "settings/regular_file.h"
 #include "settings/replace_file.h"
 
 namespace fsr_ros {

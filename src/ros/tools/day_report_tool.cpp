@@ -12,7 +12,7 @@
 #include "session/plan_file.h"
 #include "session/session_files.h"
 #include "settings/command_line.h"
-#include "settings/file_kind.h"
+#include "settings/regular_file.h"
 #include "settings/replace_file.h"
 
 namespace fsr_ros {

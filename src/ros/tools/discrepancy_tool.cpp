@@ -5,7 +5,7 @@
 #include <iostream>
 #include <sstream>
 
-#include "dataset/paces.h"
+#include "dataset/protocols.h"
 #include "fsr_pressure_map/discrepancy/discrepancy.h"
 #include "fsr_pressure_map/ros/bag_reader.h"
 #include "fsr_pressure_map/settings/input_error.h"
@@ -16,11 +16,10 @@
 #include "ros/bags/resource_path.h"
 #include "ros/tools/discrepancy_files.h"
 #include "ros/tools/map_gain.h"
-#include "ros/tools/recompute_gap_tool.h"
 #include "ros/tools/tool_options.h"
 #include "settings/command_line.h"
 #include "settings/replace_file.h"
-#include "simulation/driven_rig.h"
+#include "simulation/rig.h"
 
 namespace fsr_ros {
 

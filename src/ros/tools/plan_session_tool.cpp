@@ -10,8 +10,8 @@
 #include "session/plan_steps.h"
 #include "session/propose.h"
 #include "settings/command_line.h"
-#include "settings/file_kind.h"
 #include "settings/number_text.h"
+#include "settings/regular_file.h"
 #include "settings/replace_file.h"
 
 namespace fsr_ros {

@@ -16,12 +16,12 @@
 #include <string>
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "ros/bags/fresh_bag.h"
+#include "ros/bags/bag_writer.h"
 #include "ros/bags/sensor_topics.h"
 #include "ros/messages/message_reader.h"
 #include "ros/tools/tool_options.h"
 #include "settings/command_line.h"
-#include "settings/file_kind.h"
+#include "settings/regular_file.h"
 #include "settings/replace_file.h"
 
 namespace fsr_ros {

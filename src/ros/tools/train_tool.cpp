@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "calibration/merge.h"
-#include "calibration/stages/deviation/conditioning_line.h"
+#include "calibration/stages/deviation/budget_lines.h"
 #include "dataset/conditioning.h"
 #include "fsr_pressure_map/calibration/calibration.h"
 #include "fsr_pressure_map/calibration/calibration_file.h"
@@ -17,9 +17,9 @@
 #include "ros/tools/map_gain.h"
 #include "ros/tools/tool_options.h"
 #include "settings/command_line.h"
-#include "settings/file_kind.h"
-#include "settings/joined.h"
+#include "settings/regular_file.h"
 #include "settings/replace_file.h"
+#include "settings/text.h"
 
 namespace fsr_ros {
 

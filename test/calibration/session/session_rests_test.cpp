@@ -1,6 +1,7 @@
 // Where a session rests: at the level that its chamber holds, under noise and spikes of the reference.
 
 #include "calibration/stages/session/session_rests.h"
+#include "support/holds.h"
 
 #include <gtest/gtest.h>
 
@@ -75,10 +76,7 @@ TEST(SessionRests, SaysThatARecordingBeginsUnderLoad) {
 TEST(SessionRests, SaysThatTheChamberLaterHoldsALowerLevel) {
   const dataset::Recording recording =
       course([](double time) { return time < 6 ? 8e3 : cycle(1e3, 6)(time); });
-  EXPECT_EQ(
-      whyNoRest(recording, 0),
-      "it does not start with 2 s at rest: the chamber is at 8.0 kPa, but the lowest level that it holds "
-      "later is 1.0 kPa");
+  EXPECT_TRUE(test_support::holds(whyNoRest(recording, 0), {"2 s", "8.0 kPa", "later is 1.0 kPa"}));
 }
 
 TEST(SessionRests, SaysThatARecordingIsShort) {

@@ -68,9 +68,8 @@ TEST(TareMeasurement, AddsToThePresentTare) {
 
 TEST(TareMeasurement, RefusesALoadAboveTheLimit) {
   const auto measurement = measured([](int) { return 31e3f; });
-  EXPECT_EQ(refusalOf([&] { measurement.offset({}); }),
-            "the tare is refused: the taxel in row 1, column 1 reads 31 kPa at rest, but must be within 30 "
-            "kPa (~tare_limit)");
+  EXPECT_TRUE(
+      test_support::holds(refusalOf([&] { measurement.offset({}); }), {"31 kPa", "30 kPa (~tare_limit)"}));
 }
 
 TEST(TareMeasurement, RefusesToExceedTheLimitInSeveralTares) {

@@ -10,11 +10,12 @@
 #include <string>
 
 #include "calibration/merge.h"
-#include "calibration/stages/shape/mount_checks.h"
+#include "calibration/stages/shape/shape_check.h"
 #include "fsr_pressure_map/calibration/calibration.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "fsr_pressure_map/simulation/simulate.h"
 #include "simulation/settings_text.h"
+#include "support/holds.h"
 #include "support/simulated_rig.h"
 
 namespace fsr::calibration {
@@ -151,14 +152,12 @@ void startLoaded(dataset::Recording& recording) {
 TEST(ShapeTraining, SaysWhatIsMissing) {
   MountedRig two;
   two.radii = {0, 0.07};
-  EXPECT_EQ(missing(recordingsOf(two)),
-            "the bags hold a rest before the first load on 2 surfaces of one curvature, but three are needed "
-            "to learn how the sheet rests");
+  EXPECT_TRUE(
+      test_support::holds(missing(recordingsOf(two)),
+                          {"the bags hold a rest before the first load on 2 surfaces of one curvature"}));
   MountedRig once;
   once.mounts = 1;
-  EXPECT_EQ(missing(recordingsOf(once)),
-            "the scatter between mounts is not known: 0 further mounts of a surface can be used, but three "
-            "are needed; mount surfaces again");
+  EXPECT_TRUE(test_support::holds(missing(recordingsOf(once)), {"the scatter between mounts is not known"}));
   MountedRig small;
   small.rows = 1;
   Recordings masked = recordingsOf(small);
@@ -220,9 +219,7 @@ TEST(ShapeTraining, IsNotPossibleByMerging) {
   Calibration other = calibration;
   for (auto& bag : other.provenance.bags) std::reverse(bag.sha256.begin(), bag.sha256.end());
   const Calibration merged = mergeCalibrations({{"a.h5", calibration}, {"b.h5", other}}, {});
-  EXPECT_EQ(merged.shape.missing,
-            "a merged calibration has no model of the shape, because that needs the bags; train on all of "
-            "them");
+  EXPECT_TRUE(test_support::holds(merged.shape.missing, {"a merged calibration has no model of the shape"}));
 }
 
 // New mounts of the same sheet, and what is not a mount.
@@ -354,10 +351,7 @@ TEST_F(CheckShapes, ComparesNothingAtAnotherTemperature) {
   ASSERT_EQ(checked.size(), 2u);
   EXPECT_EQ(checked[0].check.verdict, ShapeVerdict::kAgrees) << checked[0].check.sentence;
   EXPECT_EQ(checked[1].check.verdict, ShapeVerdict::kUnknown);
-  EXPECT_EQ(
-      checked[1].check.sentence,
-      "how the sheet lies cannot be told: the sheet is at 29.0 degrees Celsius, but was trained at 23.0 to "
-      "23.0; another sensitivity reads like another bend");
+  EXPECT_TRUE(test_support::holds(checked[1].check.sentence, {"29.0 degrees", "23.0 to 23.0"}));
 }
 
 TEST_F(CheckShapes, ComparesNothingOnAnotherBoard) {
@@ -366,10 +360,7 @@ TEST_F(CheckShapes, ComparesNothingOnAnotherBoard) {
   recordings[0].sensor.serial = "SIM-0002";
   const std::vector<CheckedMount> checked = checkShapes(calibration(), recordings);
   ASSERT_EQ(checked.size(), 1u);
-  EXPECT_EQ(checked[0].check.sentence,
-            "how the sheet lies cannot be told: the board is SIM-0002, but the calibration was trained on "
-            "SIM-0001; "
-            "each sheet has its own rest");
+  EXPECT_TRUE(test_support::holds(checked[0].check.sentence, {"board is SIM-0002", "SIM-0001"}));
 }
 
 TEST(TemperatureObstacle, IsNoneWhereATemperatureIsNotKnown) {

@@ -8,7 +8,7 @@
 #include <limits>
 #include <random>
 
-#include "calibration/stages/temperature/temperature_state.h"
+#include "calibration/stages/temperature/temperature_course.h"
 #include "support/allocation_guard.h"
 
 namespace fsr::calibration {

@@ -4,6 +4,7 @@
 
 #include <iostream>
 
+#include "support/holds.h"
 #include "support/mounted_day.h"
 
 namespace fsr::dataset {
@@ -15,11 +16,8 @@ TEST(DifferingMounts, OfTwoMountsEitherMayBeWrong) {
   const auto remarks = remarksOnDifferingMounts(recorded({"bench", 2, true}));
   ASSERT_EQ(remarks.size(), 1u);
   EXPECT_EQ(remarks[0].recording, 4u);
-  EXPECT_EQ(
-      remarks[0].sentence,
-      "cylinder_10cm: mount 1 (1_cylinder_10cm.bag) and mount 5 (5_cylinder_10cm.bag) differ by 9.7 "
-      "kPa, mounts of one surface usually by 0.0 kPa; two mounts, either may be wrong: see whether both "
-      "lay on the surface that was declared");
+  EXPECT_TRUE(test_support::holds(
+      remarks[0].sentence, {"1 (1_cylinder_10cm.bag)", "5 (5_cylinder_10cm.bag)", "9.7 kPa", "0.0 kPa"}));
 }
 
 TEST(DifferingMounts, OfThreeMountsTheWrongOneIsNamed) {

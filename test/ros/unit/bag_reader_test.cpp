@@ -118,13 +118,12 @@ TEST_F(BagReader, TakesTheSensorThatIsAskedFor) {
   right.counts = {5};
   bag.write("/right/raw", ros::Time(2), right);
   bag.close();
-  EXPECT_EQ(complaint(), path_ + ": holds several sensors: left/fsr, right; choose one with --namespace");
+  EXPECT_TRUE(test_support::holds(complaint(), {path_, "left/fsr", "--namespace"}));
   BagReadOptions options;
   options.topics = "/right/";
   EXPECT_EQ(readBag(path_, options).layout.size, (fsr::matrix::MatrixSize{1, 1}));
-  EXPECT_EQ(complaint("middle"), path_ +
-                                     ": holds no topic /middle/raw, but /left/fsr/raw, /right/raw; choose "
-                                     "the sensor with --namespace");
+  EXPECT_TRUE(test_support::holds(complaint("middle"),
+                                  {path_, "/middle/raw", "/left/fsr/raw", "/right/raw", "--namespace"}));
 }
 
 TEST_F(BagReader, ABagWithoutTheMatrixSaysWhatItHolds) {
@@ -133,9 +132,8 @@ TEST_F(BagReader, ABagWithoutTheMatrixSaysWhatItHolds) {
     bag.write("/raw", ros::Time(2), std_msgs::Float64());
     bag.write("/other", ros::Time(2), std_msgs::Float64());
   }
-  EXPECT_EQ(complaint(), path_ +
-                             ": holds no topic raw of type fsr_pressure_map/MatrixFrame, but /other, /raw; "
-                             "record with record.launch");
+  EXPECT_TRUE(test_support::holds(
+      complaint(), {path_, "fsr_pressure_map/MatrixFrame", "/other", "/raw", "record.launch"}));
 }
 
 TEST_F(BagReader, ATopicOfAnotherTypeIsNamed) {
@@ -147,9 +145,8 @@ TEST_F(BagReader, ATopicOfAnotherTypeIsNamed) {
   bag.write("/fsr/raw", ros::Time(2), scan);
   bag.write("/fsr/chamber_pressure", ros::Time(2), std_msgs::Float64());
   bag.close();
-  EXPECT_EQ(
-      complaint(),
-      path_ + ": /fsr/chamber_pressure is of type std_msgs/Float64, but must be sensor_msgs/FluidPressure");
+  EXPECT_TRUE(test_support::holds(
+      complaint(), {path_, "/fsr/chamber_pressure", "std_msgs/Float64", "sensor_msgs/FluidPressure"}));
 }
 
 TEST_F(BagReader, ABagCutAnywhereIsRefusedInASentence) {
@@ -186,14 +183,13 @@ TEST_F(BagReader, ABagThatWasNotClosedNamesTheToolThatClosesIt) {
     fs::copy_file(path_, folder_ / "open.bag");
   }
   path_ = (folder_ / "open.bag").string();
-  EXPECT_EQ(complaint(), path_ + ": the bag was not closed and has no index; run: " +
-                             "rosrun fsr_pressure_map close_bag " + path_);
+  EXPECT_TRUE(test_support::holds(complaint(), {path_, "fsr_pressure_map close_bag"}));
 }
 
 TEST_F(BagReader, WhatIsNoBagIsRefused) {
-  EXPECT_EQ(complaint(), path_ + ": there is no such file");
+  EXPECT_TRUE(test_support::holds(complaint(), {path_, "there is no such file"}));
   std::ofstream(path_) << "";
-  EXPECT_EQ(complaint(), path_ + ": the file is empty; give a bag recorded with record.launch");
+  EXPECT_TRUE(test_support::holds(complaint(), {path_, "record.launch"}));
   std::ofstream(path_) << "pressure,count\n1,2\n";
   EXPECT_NE(complaint().find("is not a complete bag ("), std::string::npos) << complaint();
 }
@@ -206,9 +202,7 @@ TEST_F(BagReader, MessagesThatDoNotFitEachOtherAreRefusedWithTheBagsName) {
     bag.addSurface(1000000000, {"limb", 1, std::vector<fsr::matrix::Curvature>(6), {}});
     bag.close();
   }
-  EXPECT_EQ(complaint(), path_ +
-                             ": surface \"limb\" has 6 values, but must have one, or one for each of the 4 "
-                             "taxels of a 2 x 2 matrix");
+  EXPECT_TRUE(test_support::holds(complaint(), {path_, "\"limb\"", "6 values", "4 taxels", "2 x 2"}));
 }
 
 TEST(MessageEvents, AMalformedDescriptionIsRefused) {
@@ -216,8 +210,8 @@ TEST(MessageEvents, AMalformedDescriptionIsRefused) {
   info.rows = info.columns = 2;
   info.pitch_x = info.pitch_y = 0.01f;
   info.mask = {1, 0};
-  EXPECT_EQ(test_support::refusal([&] { toDescription(info); }),
-            "matrix_info: mask has 2 values, but must have none or 4");
+  EXPECT_TRUE(
+      test_support::holds(test_support::refusal([&] { toDescription(info); }), {"matrix_info", "2 values"}));
   info.mask.clear();
   info.pitch_y = 0;
   EXPECT_THROW(toDescription(info), fsr::settings::InputError);

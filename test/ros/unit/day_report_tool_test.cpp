@@ -16,6 +16,7 @@
 #include "session/plan_file.h"
 #include "session/session_files.h"
 #include "support/content_of.h"
+#include "support/holds.h"
 #include "support/source_dir.h"
 #include "support/tool_run.h"
 
@@ -129,7 +130,7 @@ TEST_F(DayReportTool, RefusesAFolderWithoutASessionOrWithoutItsPlan) {
   EXPECT_EQ(run({folder_.string()}), -1);
   EXPECT_TRUE(has(said_, "has no *_session.yaml, which session.launch writes")) << said_;
   EXPECT_EQ(run({}), -1);
-  EXPECT_EQ(said_, "no DIR is given; see day_report --help");
+  EXPECT_TRUE(test_support::holds(said_, {"DIR", "day_report --help"}));
 }
 
 TEST_F(DayReportTool, RefusesAnotherPlan) {

@@ -24,6 +24,7 @@
 #include "ros/bags/bag_writer.h"
 #include "support/content_of.h"
 #include "support/file_size_limit.h"
+#include "support/holds.h"
 #include "support/line_format.h"
 #include "support/program_output.h"
 #include "support/pty.h"
@@ -394,10 +395,8 @@ TEST_F(ExportTool, TakesTheCalibrationOfEachSheet) {
     return folder_.path(serial);
   };
   const std::string first = of("board-1"), second = of("board-2");
-  EXPECT_EQ(run({two, "--to", "statistics", "--output", out, "--calibration", second}),
-            two + ": the sheet left has the board board-1, but --calibration names " + second +
-                " of board-2; give the calibration of each sheet, separated by commas, or choose one sheet "
-                "with --namespace");
+  EXPECT_TRUE(test_support::holds(run({two, "--to", "statistics", "--output", out, "--calibration", second}),
+                                  {two, "board-1", "--calibration", second, "--namespace"}));
   EXPECT_FALSE(fs::exists(out));
   run({two, "--to", "statistics", "--output", out, "--calibration", second + "," + first});
   const auto rows = table(out);
@@ -445,9 +444,9 @@ TEST_F(ExportTool, RefusesUnusableInputInOneSentenceAndLeavesNothing) {
     words.insert(words.end(), more.begin(), more.end());
     return run(words);
   };
-  EXPECT_EQ(refusal({folder_.path("none.bag")}), folder_.path("none.bag") + ": there is no such file");
-  EXPECT_EQ(refusal({bag_}, "pdf"),
-            "--to is \"pdf\", but must be one of csv, statistics, trial, hdf5, tekscan, pliance");
+  EXPECT_TRUE(test_support::holds(refusal({folder_.path("none.bag")}),
+                                  {folder_.path("none.bag"), "there is no such file"}));
+  EXPECT_TRUE(test_support::holds(refusal({bag_}, "pdf"), {"--to", "\"pdf\"", "hdf5"}));
   EXPECT_NE(refusal({bag_, "--namespace", "left"}).find("holds no topic /left/raw"), std::string::npos);
   EXPECT_NE(refusal({bag_, "--map", "map_b"}).find("holds no topic map_b, but /fsr/"), std::string::npos);
   EXPECT_NE(refusal({bag_, "--from", "500"}).find("holds no scan between"), std::string::npos);
@@ -464,8 +463,8 @@ TEST_F(ExportTool, RefusesUnusableInputInOneSentenceAndLeavesNothing) {
   fs::resize_file(cut, fs::file_size(cut) / 2);
   EXPECT_NE(refusal({cut}).find("is not a complete bag"), std::string::npos);
   EXPECT_EQ(files(), 3u) << "the bags alone";
-  EXPECT_EQ(run({bag_, "--to", "csv", "--output", bag_}),
-            bag_ + ": would be overwritten, but is one of the inputs; give another name for the output");
+  EXPECT_TRUE(
+      test_support::holds(run({bag_, "--to", "csv", "--output", bag_}), {bag_, "would be overwritten"}));
   EXPECT_NE(run({bag_, "--to", "csv", "--output", folder_.path("no/a.csv")}).find("cannot be written"),
             std::string::npos);
 }

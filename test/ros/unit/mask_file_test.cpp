@@ -1,4 +1,4 @@
-#include "ros/bags/mask_file.h"
+#include "ros/live/live_calibration.h"
 
 #include <gtest/gtest.h>
 

@@ -79,9 +79,9 @@ TEST_F(SimulateTool, RunsTheSurfacesAndTheProgramOfAPlan) {
   EXPECT_NEAR(*std::max_element(second.pressure.begin(), second.pressure.end()), 620e3, 2e3);
   // Rest, two cycles to 310 kPa and three to 620 kPa with dwells of 1 s at 17 kPa/s, rest.
   EXPECT_NEAR(second.time.back(), 60 + 10 + (2 * 620 + 3 * 1240) / 17.0, 1);
-  EXPECT_EQ(run({"--simulation", kBench, "--plan", plan, "--drive", path("out/1_flat.bag"), "--output",
-                 path("new")}),
-            "--plan and --drive both say what the chamber does; give one of them");
+  EXPECT_TRUE(test_support::holds(run({"--simulation", kBench, "--plan", plan, "--drive",
+                                       path("out/1_flat.bag"), "--output", path("new")}),
+                                  {"--plan and --drive"}));
 }
 
 TEST_F(SimulateTool, ItsBagsReadAsTheRigsRecordings) {
@@ -432,8 +432,7 @@ TEST_F(SimulateShards, AreRefusedIfAFileIsCutShort) {
 
 TEST_F(SimulateShards, RefuseWhatIsNoShardAndOptionsOfOtherRuns) {
   for (const char* const text : {"0/2", "3/2", "2", "1/0", "1/2/3", "99999999999999999999/2"}) {
-    EXPECT_EQ(shard(text),
-              "--shard is " + std::string(text) + ", but must be I/N with 1 <= I <= N, e.g. 2/4");
+    EXPECT_TRUE(test_support::holds(shard(text), {"--shard", text, "I/N", "<=", "e.g. 2/4"}));
   }
   EXPECT_TRUE(test_support::holds(shard("1/2", {"--save-state", path("state.yaml")}),
                                   {"--save-state cannot be used with"}));

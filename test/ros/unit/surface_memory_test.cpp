@@ -1,4 +1,4 @@
-#include "ros/bags/surface_memory.h"
+#include "ros/bags/surface_folder.h"
 
 #include <gtest/gtest.h>
 

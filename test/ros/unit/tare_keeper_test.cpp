@@ -1,4 +1,4 @@
-#include "ros/live/tare_keeper.h"
+#include "ros/live/live_calibration.h"
 
 #include <gtest/gtest.h>
 

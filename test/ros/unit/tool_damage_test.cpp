@@ -17,6 +17,7 @@
 #include "ros/bags/bag_writer.h"
 #include "ros/tools/tools.h"
 #include "support/content_of.h"
+#include "support/holds.h"
 #include "support/pty.h"
 #include "support/source_dir.h"
 #include "support/synthetic_recording.h"
@@ -140,11 +141,8 @@ TEST_F(ToolDamage, ASurfaceOfAnotherSizeIsRefusedByEveryExport) {
     for (std::uint32_t i = 1; i < 50; ++i) bag.addScan(i * 100000000LL, i, {{2, 2}, 4095, counts, 4});
     bag.close();
   }
-  EXPECT_EQ(
-      said(exportAll, {bag_, "--to", "csv", "--output", folder_.path("out.csv")}),
-      bag_ +
-          ": surface \"limb\" has 3 values, but must have one, or one for each of the 4 taxels of a 2 x 2 "
-          "matrix");
+  EXPECT_TRUE(test_support::holds(said(exportAll, {bag_, "--to", "csv", "--output", folder_.path("out.csv")}),
+                                  {bag_, "\"limb\"", "3 values", "4 taxels", "2 x 2"}));
   EXPECT_EQ(files(), 1u);
 }
 

@@ -255,8 +255,7 @@ TEST_F(TrainTool, ExpectsATareAtTheStartOfASession) {
   words.insert(words.end(), {"--zero", "none"});
   EXPECT_EQ(run(words).find("Tare at the start"), std::string::npos);
   EXPECT_FALSE(fsr::calibration::loadCalibration(output).session_zero.expected());
-  EXPECT_EQ(run({bend_, "--output", output, "--zero", "yes"}),
-            "--zero is \"yes\", but must be one of auto, none, session");
+  EXPECT_TRUE(test_support::holds(run({bend_, "--output", output, "--zero", "yes"}), {"--zero", "\"yes\""}));
   EXPECT_EQ(
       run({bend_, "--output", output, "--zero", "session"}).find("zero session: no session can be tared"),
       0u);
@@ -297,19 +296,18 @@ TEST_F(TrainTool, MergesCalibrations) {
     EXPECT_EQ(one.tables[i].deviation, other.tables[i].deviation);
   }
   EXPECT_EQ(run({"--merge", a, "--output", merged}), "merging needs two calibration files or more");
-  EXPECT_EQ(run({"--merge", a, b, "--output", merged, "--model", "linear"}),
-            "--model cannot be used with --merge, because the files determine it");
-  EXPECT_EQ(run({"--merge", a, a, "--output", merged}),
-            a + ": was trained on flat.bag, as was " + a + "; each bag may count once");
+  EXPECT_TRUE(test_support::holds(run({"--merge", a, b, "--output", merged, "--model", "linear"}),
+                                  {"--model", "--merge"}));
+  EXPECT_TRUE(test_support::holds(run({"--merge", a, a, "--output", merged}),
+                                  {a, "flat.bag", "was trained on flat.bag"}));
 }
 
 TEST_F(TrainTool, AFailureOverwritesNothing) {
   const std::string output = (folder_ / "calibration.h5").string();
   const std::string old = "fsr_pressure_map calibration schema=8\n";
   std::ofstream(output) << old;
-  EXPECT_EQ(run({bend_, "--output", output, "--scheme", "flat_only"}),
-            "scheme is flat_only, but no recording is of a flat surface (there is cylinder_7cm); add one, or "
-            "choose baseline or per_curvature");
+  EXPECT_TRUE(test_support::holds(run({bend_, "--output", output, "--scheme", "flat_only"}),
+                                  {"scheme is flat_only", "(there is cylinder_7cm)", "per_curvature"}));
   EXPECT_EQ(test_support::contentOf(output), old);
 }
 
@@ -331,8 +329,7 @@ TEST_F(TrainTool, PrintsTheErrorBudgetOfAFileAgain) {
             std::string::npos)
       << clinic;
   EXPECT_EQ(run({"--budget", output}), again);
-  EXPECT_EQ(run({"--budget", output, bend_}),
-            "--budget prints what the file holds; remove the bags and --output");
+  EXPECT_TRUE(test_support::holds(run({"--budget", output, bend_}), {"--budget", "--output"}));
   EXPECT_NE(run({bend_, "--output", output, "--transducer", "-1"}).find("--transducer"), std::string::npos);
 }
 
@@ -353,28 +350,23 @@ TEST_F(TrainTool, HandsTheOldOptionsOverToCheckCalibration) {
 
 TEST_F(TrainTool, WrongUsageIsOneSentence) {
   const std::string output = (folder_ / "calibration.h5").string();
-  EXPECT_EQ(run({bend_}), "--output FILE is missing; see train --help");
-  EXPECT_EQ(run({"--output", output}), "there is no recording to train on; give one bag or more");
-  EXPECT_EQ(run({bend_, "--output", output, "--scheme", "best"}),
-            "--scheme is \"best\", but must be one of flat_only, baseline, per_curvature, "
-            "curvature_input, one_hot, flat_or_curved, binary_input, scaled_curvature, curvature_map, "
-            "curvature_ranges, interpolated, per_surface");
-  EXPECT_EQ(run({bend_, "--output", output, "--model", "best"}),
-            "--model is \"best\", but must be one of linear, grnn, forest, monotone");
-  EXPECT_EQ(run({bend_, "--output", output, "--trees", "5"}),
-            "--trees is an option of --model forest, but the model is grnn");
-  EXPECT_EQ(run({bend_, "--output", output, "--bandwidth", "wide"}),
-            "bandwidth is \"wide\", but must be auto, or a number of deviations");
-  EXPECT_EQ(run({bend_, "--output", output, "--leaf-rule", "few", "--model", "forest"}),
-            "--leaf-rule is \"few\", but must be one of draws, distinct");
-  EXPECT_EQ(run({bend_, "--output", output, "--folds", "1"}),
-            "--folds is \"1\", but must be a whole number, 2 to 20");
-  EXPECT_EQ(
-      run({bend_, "--output", "/no/such/place.h5"}),
-      "/no/such/place.h5: cannot be written (No such file or directory); give a path in a directory that "
-      "exists and may be written to");
-  EXPECT_EQ(run({bend_, bend_, "--output", output}),
-            "bend.bag: has the same bytes as bend.bag; give each bag once");
+  EXPECT_TRUE(test_support::holds(run({bend_}), {"--output FILE", "--help"}));
+  EXPECT_TRUE(test_support::holds(run({"--output", output}), {"there is no recording to train on"}));
+  EXPECT_TRUE(test_support::holds(run({bend_, "--output", output, "--scheme", "best"}),
+                                  {"--scheme", "\"best\"", "flat_only", "per_curvature", "per_surface"}));
+  EXPECT_TRUE(
+      test_support::holds(run({bend_, "--output", output, "--model", "best"}), {"--model", "\"best\""}));
+  EXPECT_TRUE(test_support::holds(run({bend_, "--output", output, "--trees", "5"}), {"--trees", "--model"}));
+  EXPECT_TRUE(test_support::holds(run({bend_, "--output", output, "--bandwidth", "wide"}),
+                                  {"bandwidth is \"wide\""}));
+  EXPECT_TRUE(test_support::holds(run({bend_, "--output", output, "--leaf-rule", "few", "--model", "forest"}),
+                                  {"--leaf-rule", "\"few\""}));
+  EXPECT_TRUE(
+      test_support::holds(run({bend_, "--output", output, "--folds", "1"}), {"--folds", "\"1\"", "2 to 20"}));
+  EXPECT_TRUE(test_support::holds(run({bend_, "--output", "/no/such/place.h5"}),
+                                  {"/no/such/place.h5", "cannot be written"}));
+  EXPECT_TRUE(test_support::holds(run({bend_, bend_, "--output", output}),
+                                  {"bend.bag", "has the same bytes as bend.bag"}));
   EXPECT_EQ(run({"--help"}).rfind("train BAG... --output FILE, or --merge", 0), 0u);
 }
 

@@ -5,11 +5,15 @@
 #include <cstdint>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "fsr_pressure_map/calibration/error_budget.h"
 
 namespace fsr::calibration {
+
+/// "that of the tables", or "that of the tables times 0.92 to 1.31 by pressure".
+std::string deviationText(const DeviationScale& scale);
 
 /// Counts the readings by |error| / deviation, in cells of 1/64 of an octave (1.1 %), and finds the factors
 /// of ErrorIntervals from them. Its memory does not grow with the number of readings.

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "calibration/stages/memory/history_parts.h"
+#include "calibration/stages/memory/history_stream.h"
 #include "matrix/for_each_taxel.h"
 
 namespace fsr::calibration {

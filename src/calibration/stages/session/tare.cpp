@@ -10,8 +10,8 @@
 #include "dataset/count_readers.h"
 #include "fsr_pressure_map/calibration/calibrator.h"
 #include "fsr_pressure_map/settings/input_error.h"
-#include "settings/file_kind.h"
 #include "settings/number_text.h"
+#include "settings/regular_file.h"
 #include "settings/replace_file.h"
 #include "settings/settings.h"
 

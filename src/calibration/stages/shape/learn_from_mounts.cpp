@@ -7,8 +7,8 @@
 #include <numeric>
 
 #include "calibration/stages/shape/learn_shape.h"
-#include "calibration/stages/shape/mount_checks.h"
 #include "calibration/stages/shape/read_shape.h"
+#include "calibration/stages/shape/shape_check.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "settings/number_text.h"
 
@@ -40,7 +40,8 @@ class ShapeTraining {
     gatherSurfaces();
     if (groups_.size() < kLeastSurfaces) {
       model_.missing = "the bags hold a rest before the first load on " + std::to_string(groups_.size()) +
-                       " surfaces of one curvature, but three are needed to learn how the sheet rests";
+                       (groups_.size() == 1 ? " surface" : " surfaces") +
+                       " of one curvature, but three are needed to learn how the sheet rests";
       return model_;
     }
     chooseTaxels();

@@ -13,7 +13,7 @@
 #include "matrix/for_each_taxel.h"
 #include "regression/bandwidth_search.h"
 #include "regression/regressors.h"
-#include "settings/step_progress.h"
+#include "settings/progress.h"
 
 namespace fsr::calibration {
 

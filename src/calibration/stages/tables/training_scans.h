@@ -10,7 +10,6 @@
 #include "dataset/sections.h"
 #include "fsr_pressure_map/dataset/condition_classes.h"
 #include "fsr_pressure_map/dataset/recording.h"
-#include "regression/code_samples.h"
 #include "regression/code_statistics.h"
 
 namespace fsr::calibration {

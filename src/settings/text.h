@@ -4,6 +4,7 @@
 #include <streambuf>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace fsr::settings {
 
@@ -27,5 +28,27 @@ class PrintableOutput : private std::streambuf {
   std::ostream& out_;
   std::streambuf* const target_;
 };
+
+/// The texts `textOf(item)` of the items with `between` between them.
+template <typename Items, typename TextOf>
+std::string joinedTexts(const Items& items, TextOf textOf, const std::string& between = ", ") {
+  std::string text;
+  for (const auto& item : items) text += (text.empty() ? "" : between) + std::string(textOf(item));
+  return text;
+}
+
+/// The items with `between` between them.
+template <typename Items>
+std::string joined(const Items& items, const std::string& between = ", ") {
+  return joinedTexts(
+      items, [](const std::string& item) { return item; }, between);
+}
+
+/// The shortest decimal text that a YAML or JSON reader converts back to the same number; `.inf` and `.nan`
+/// as in YAML.
+std::string numberText(double value);
+
+/// A text in double quotes, escaped for YAML.
+std::string quotedText(const std::string& text);
 
 }  // namespace fsr::settings

@@ -1,4 +1,4 @@
-#include "exports/message_type.h"
+#include "ros/messages/message_reader.h"
 
 #include <gtest/gtest.h>
 
@@ -26,8 +26,8 @@ string key
 string[] words
 )";
 
-fsr::exports::MessageType type() {
-  return fsr::exports::parseMessageType("test/Everything", kDefinition);
+fsr_ros::MessageType type() {
+  return fsr_ros::parseMessageType("test/Everything", kDefinition);
 }
 
 std::string number(std::uint32_t value) {
@@ -47,24 +47,24 @@ std::string message() {
 
 TEST(MessageType, RefusesEveryTruncationAndEveryExcess) {
   const std::string whole = message();
-  EXPECT_TRUE(fsr::exports::isMessageOf(type(), whole));
+  EXPECT_TRUE(fsr_ros::isMessageOf(type(), whole));
   for (std::size_t size = 0; size < whole.size(); ++size) {
-    EXPECT_FALSE(fsr::exports::isMessageOf(type(), whole.substr(0, size))) << size;
+    EXPECT_FALSE(fsr_ros::isMessageOf(type(), whole.substr(0, size))) << size;
   }
-  EXPECT_FALSE(fsr::exports::isMessageOf(type(), whole + '\0'));
+  EXPECT_FALSE(fsr_ros::isMessageOf(type(), whole + '\0'));
 }
 
 TEST(MessageType, RefusesAnArrayThatStatesMoreValuesThanThereAre) {
   std::string lying = message();
   const std::size_t at = number(1).size() * 4 + 5;  // the length of `values`
   lying.replace(at, 4, number(0xffffffff));
-  EXPECT_FALSE(fsr::exports::isMessageOf(type(), lying));
+  EXPECT_FALSE(fsr_ros::isMessageOf(type(), lying));
 }
 
 TEST(MessageType, RefusesATypeThatIsMissingOrContainsItself) {
-  EXPECT_THROW(fsr::exports::parseMessageType("test/A", "B b\n"), fsr::settings::InputError);
-  EXPECT_THROW(fsr::exports::parseMessageType("test/A", "A[] a\n"), fsr::settings::InputError);
-  EXPECT_THROW(fsr::exports::parseMessageType("test/A", "uint8\n"), fsr::settings::InputError);
+  EXPECT_THROW(fsr_ros::parseMessageType("test/A", "B b\n"), fsr::settings::InputError);
+  EXPECT_THROW(fsr_ros::parseMessageType("test/A", "A[] a\n"), fsr::settings::InputError);
+  EXPECT_THROW(fsr_ros::parseMessageType("test/A", "uint8\n"), fsr::settings::InputError);
 }
 
 }  // namespace

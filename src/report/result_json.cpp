@@ -1,11 +1,11 @@
-#include "report/members_yaml.h"
+#include "report/result_json.h"
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
 
 #include "settings/number_text.h"
-#include "settings/yaml_text.h"
+#include "settings/text.h"
 
 namespace fsr::report {
 
