@@ -70,7 +70,7 @@ bool Conductor::isDoubted(const Reading& reading) {
   // Where the readings are rare, a ramp doubles the pressure between two of them.
   const double ramp =
       mounted ? kUsualRamps * std::max(steps_[step_].fill_rate, steps_[step_].vent_rate) * since : 0;
-  const bool jumped = judged_ && since <= options_.silence &&
+  const bool jumped = judged_ && since <= silence_ &&
                       std::abs(reading.pressure - last_judged_.pressure) > ramp &&
                       JumpWatch::isJump(last_judged_, reading);
   if (!jumps_.open() && mounted && jumped) jumps_.begin(last_judged_, reading);
@@ -93,11 +93,9 @@ void Conductor::settleJump() {
   unfollowed_ = true;
   judged_ = false;
   rest_.restart();
-  const std::string sentence = "the pressure jumped from " + kPaText(jumps_.before().pressure) + " to " +
-                               kPaText(jumps_.after().pressure) +
-                               ", and the sheet did not follow: is the transducer plugged in?";
-  complain(Reason::kPressureNotFollowed, sentence);
-  spoil(Reason::kPressureNotFollowed, sentence);
+  hinder(Reason::kPressureNotFollowed, "the pressure jumped from " + kPaText(jumps_.before().pressure) +
+                                           " to " + kPaText(jumps_.after().pressure) +
+                                           ", and the sheet did not follow: is the transducer plugged in?");
   recovering_ = watch_ != nullptr;
 }
 
@@ -162,10 +160,10 @@ void Conductor::insistOn(const SurfaceDoubt& doubt, Verdict* verdict) {
 void Conductor::beginMountAgain(const Verdict& verdict) {
   for (std::size_t s = 0; s < step_; ++s) {
     if (steps_[s].mount == steps_[step_].mount && steps_[s].kind != StepKind::kCondition &&
-        states_[s] == StepState::kAccepted)
-      states_[s] = StepState::kOpen;
+        state_.steps[s] == StepState::kAccepted)
+      state_.steps[s] = StepState::kOpen;
   }
-  ++rejected_;
+  ++state_.rejected;
   note(step_, StepState::kOpen, verdict);
   outcomes_.back().mount_again = true;
   goOn();
