@@ -167,7 +167,7 @@ void Conductor::take(const Reading& reading) {
 void Conductor::handle(const Verdict& verdict, const Reading& reading) {
   const Verdict full = verdict.accepted() ? withScans(verdict) : verdict;
   if (!full.accepted()) return rejectStep(full);
-  if (answers_ && isLoad()) answered_ = std::max(answered_.value_or(0), *answers_);
+  if (answers_ && steps_[step_].loads()) answered_ = std::max(answered_.value_or(0), *answers_);
   const Verdict compared = withSurface(full);
   if (!compared.accepted()) return beginMountAgain(compared);
   acceptStep(compared);
@@ -299,19 +299,13 @@ bool Conductor::isHindered() const {
          complaints_.count(Reason::kScansLost) + complaints_.count(Reason::kNotRecorded) > 0;
 }
 
-bool Conductor::isLoad() const {
-  const StepKind kind = steps_[step_].kind;
-  return kind == StepKind::kCycle || kind == StepKind::kLoop || kind == StepKind::kHold ||
-         kind == StepKind::kCondition;
-}
-
 bool Conductor::waitsForMount() const {
   return !done() && (resumed_ || steps_[step_].kind == StepKind::kMount);
 }
 
 // What the scans say about an attempt that the pressure accepts.
 Verdict Conductor::withScans(Verdict verdict) {
-  if (!isLoad()) return verdict;
+  if (!steps_[step_].loads()) return verdict;
   const auto reject = [&verdict](Reason reason, const std::string& sentence) {
     return Verdict{reason, sentence, verdict.measured};
   };

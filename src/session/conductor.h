@@ -12,7 +12,6 @@
 #include "session/plan_steps.h"
 #include "session/sheet_watch.h"
 #include "session/step_watch.h"
-#include "session/surface_watch.h"
 
 namespace fsr::session {
 
@@ -171,7 +170,6 @@ class Conductor {
   void jumpTo(double time);
   bool attemptRuns() const { return watch_ && watch_->running() && !recovering_; }
   bool isHindered() const;
-  bool isLoad() const;
   bool isFirstLoad() const;
   void readMatrix(const ScanSummary& scan);
   void checkSheet(const ScanSummary& scan);

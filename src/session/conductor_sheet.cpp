@@ -20,7 +20,7 @@ constexpr double kRestShare = 0.1;
 }  // namespace
 
 bool Conductor::isFirstLoad() const {
-  if (done() || !isLoad() || !steps_[step_].recorded) return false;
+  if (done() || !steps_[step_].loads() || !steps_[step_].recorded) return false;
   for (std::size_t s = 0; s < step_; ++s) {
     const SessionStep& one = steps_[s];
     if (one.mount == steps_[step_].mount && one.recorded && one.kind != StepKind::kRest) return false;
@@ -45,7 +45,7 @@ void Conductor::readMatrix(const ScanSummary& scan) {
     const bool loaded = largest_excess_ > 0 && excess > kRestShare * largest_excess_;
     if (!loaded && !rising) rest_counts_.take(scan.counts, scan.taxels);
     if (rest_counts_.known()) noise_ = rest_counts_.noise();
-  } else if (attemptRuns() && isLoad()) {
+  } else if (attemptRuns() && steps_[step_].loads()) {
     checkSheet(scan);
     largest_excess_ = std::fmax(largest_excess_, excess);
   }

@@ -1,4 +1,4 @@
-#include "session/plan_file.h"
+#include "session/plan.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -57,6 +57,12 @@ struct SessionStep {
   double peak_error = 0;   ///< tolerated difference of the peak [Pa]
   double rate_error = 0;   ///< likewise of the rates, share
   double dwell_error = 0;  ///< likewise of the dwells [s]
+
+  /// Whether the chamber is filled.
+  bool loads() const {
+    return kind == StepKind::kCondition || kind == StepKind::kCycle || kind == StepKind::kLoop ||
+           kind == StepKind::kHold;
+  }
 };
 
 /// All steps of the session in their order, without gaps. The plan must be valid, see validate().

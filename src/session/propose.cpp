@@ -1,4 +1,4 @@
-#include "session/propose.h"
+#include "session/plan.h"
 
 #include <algorithm>
 #include <cmath>

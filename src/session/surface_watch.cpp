@@ -1,4 +1,4 @@
-#include "session/surface_watch.h"
+#include "session/sheet_watch.h"
 
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>

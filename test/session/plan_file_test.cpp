@@ -1,11 +1,10 @@
-#include "session/plan_file.h"
+#include "session/plan.h"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
 #include "session/example_plans.h"
-#include "session/plan_report.h"
 #include "session/plan_steps.h"
 
 namespace fsr::session {

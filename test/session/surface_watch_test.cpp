@@ -1,4 +1,4 @@
-#include "session/surface_watch.h"
+#include "session/sheet_watch.h"
 
 #include <gtest/gtest.h>
 
@@ -6,9 +6,6 @@
 #include <cmath>
 #include <random>
 #include <string>
-
-#include "session/sheet_watch.h"
-#include "session/surface_watch.h"
 
 namespace {
 

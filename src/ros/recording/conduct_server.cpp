@@ -17,7 +17,7 @@
 #include "ros/messages/surface_message.h"
 #include "ros/messages/view_messages.h"
 #include "session/coverage.h"
-#include "session/plan_file.h"
+#include "session/plan.h"
 #include "session/session_files.h"
 #include "settings/number_text.h"
 #include "settings/replace_file.h"
@@ -105,7 +105,8 @@ void ConductServer::start(const Parameters& parameters) {
   const RescuedSession rescued = rescueSession(folder_, plan_.name);
   for (const std::string& sentence : rescued.closed) ROS_WARN_STREAM(sentence);
   for (const std::string& sentence : rescued.open) ROS_ERROR_STREAM(sentence);
-  state_file_ = (fs::path(folder_) / fsr::session::stateFileName(plan_.name)).string();
+  state_file_ =
+      (fs::path(folder_) / fsr::session::sessionFile(plan_.name, fsr::session::kStateFile)).string();
   if (fs::exists(state_file_)) {
     conductor_ =
         std::make_unique<fsr::session::Conductor>(plan_, fsr::session::readState(state_file_), silence);
@@ -114,8 +115,9 @@ void ConductServer::start(const Parameters& parameters) {
     conductor_ = std::make_unique<fsr::session::Conductor>(plan_, silence);
   }
   // So that the folder tells by itself what was planned.
-  fsr::settings::replaceFile((fs::path(folder_) / fsr::session::planFileName(plan_.name)).string(),
-                             planText(plan_, {"The plan of this session."}));
+  fsr::settings::replaceFile(
+      (fs::path(folder_) / fsr::session::sessionFile(plan_.name, fsr::session::kPlanFile)).string(),
+      planText(plan_, {"The plan of this session."}));
   if (parameters.flag("report", true)) reporter_ = std::make_unique<DayReporter>(folder_, plan_.name);
 }
 

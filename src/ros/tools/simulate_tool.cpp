@@ -11,7 +11,7 @@
 #include "ros/bags/simulated_bags.h"
 #include "ros/tools/recompute_gap_tool.h"
 #include "ros/tools/tool_options.h"
-#include "session/plan_file.h"
+#include "session/plan.h"
 #include "session/plan_steps.h"
 #include "settings/command_line.h"
 #include "settings/file_kind.h"
