@@ -9,6 +9,7 @@
 #include "settings/number_text.h"
 #include "settings/sha256.h"
 #include "settings/yaml_text.h"
+#include "statistics/samples.h"
 
 namespace fsr::session {
 
@@ -18,10 +19,6 @@ constexpr double kJump = 1;               // stamps of one topic may be out of o
 constexpr double kLeastPressure = -30e3;  // a gauge pressure below is no reading [Pa]
 constexpr double kLostScans = 0.05;       // share of the scans of a step that may be lost
 constexpr double kSaturated = 0.5;        // share of taxels at full scale from which it is said
-
-double median(double a, double b, double c) {
-  return std::max(std::min(a, b), std::min(std::max(a, b), c));
-}
 
 std::string fallenText(unsigned taxels) {
   return std::to_string(taxels) + (taxels == 1 ? " taxel" : " taxels") +
@@ -105,7 +102,8 @@ void Conductor::pressure(double time, double gauge) {
     recent_.push_back(reading);
     return;
   }
-  const Reading middle{recent_[1].time, median(recent_[0].pressure, recent_[1].pressure, gauge)};
+  const Reading middle{recent_[1].time,
+                       statistics::upperMedian({recent_[0].pressure, recent_[1].pressure, gauge})};
   recent_[0] = recent_[1];
   recent_[1] = reading;
   judge(middle);

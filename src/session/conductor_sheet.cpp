@@ -21,11 +21,9 @@ constexpr double kRestShare = 0.1;
 
 bool Conductor::isFirstLoad() const {
   if (done() || !steps_[step_].loads() || !steps_[step_].recorded) return false;
-  for (std::size_t s = 0; s < step_; ++s) {
-    const SessionStep& one = steps_[s];
-    if (one.mount == steps_[step_].mount && one.recorded && one.kind != StepKind::kRest) return false;
-  }
-  return true;
+  return std::none_of(steps_.data(), steps_.data() + step_, [this](const SessionStep& one) {
+    return one.mount == steps_[step_].mount && one.recorded && one.loads();
+  });
 }
 
 // A scan belongs to the pressure that was judged last, which is one reading old at most. A sheet that reads

@@ -12,7 +12,6 @@ namespace fsr::session {
 struct PlannedMount {
   unsigned number = 1;      ///< label of the mount and number of the bag, from 1
   std::size_t surface = 0;  ///< index into SessionPlan::surfaces
-  unsigned visit = 1;       ///< how often the sheet has been on this surface, this time included
 };
 
 /// The mounts in their order. They come in rounds: each surface once, then those with a further mount once
@@ -42,7 +41,6 @@ struct SessionStep {
   StepKind kind = StepKind::kMount;
   unsigned mount = 1;      ///< label of the mount
   std::string surface;     ///< its name
-  unsigned visit = 1;      ///< see PlannedMount
   bool recorded = false;   ///< whether it belongs into the bag of the mount
   double begin = 0;        ///< since the begin of the session [s]
   double duration = 0;     ///< from the end of the step before it [s]
