@@ -18,35 +18,38 @@ using settings::fixedPressure;
 using settings::roundedText;
 
 constexpr double kTareGain = 0.02;  // share of the error, from which on a tare is worth a sentence
+// Probability of taking a correction that gains nothing on cycles that were left out (one-sided), and of
+// taking one where only the mounts differ.
+constexpr double kErrorRate = 0.01, kMountErrorRate = 0.05;
+constexpr double kWorth = 1.1;  // times the correction's RMSE, to which the parent is still good
 
 // Empty = the correction is worth a child; else why it is not.
-std::string whyNot(const CorrectionChoice& choice, const CheckOptions& options) {
+std::string whyNot(const CorrectionChoice& choice) {
   const double before = choice.rmse[0];
   if (choice.model == ChangeModel::kNone)
     return "no correction predicts cycles that were left out better than the calibration as it is";
-  if (!(choice.p < options.error_rate)) {
+  if (!(choice.p < kErrorRate)) {
     return "the gain of a correction on cycles that were left out may be chance (p = " +
-           roundedText(choice.p, 2) + ", needed: " + roundedText(options.error_rate, 2) + ")";
+           roundedText(choice.p, 2) + ", needed: " + roundedText(kErrorRate, 2) + ")";
   }
-  if (!(before > options.worth * choice.nested)) {
+  if (!(before > kWorth * choice.nested)) {
     return "a correction would lower the error from " + fixedPressure(before, 1) + " to " +
-           fixedPressure(choice.nested, 1) + " only, less than " + settings::fixedText(options.worth, 1) +
-           " times";
+           fixedPressure(choice.nested, 1) + " only, less than " + settings::fixedText(kWorth, 1) + " times";
   }
   return "";
 }
 
-std::string mayBeMounts(const CommonChange& change, const CheckOptions& options) {
+std::string mayBeMounts(const CommonChange& change) {
   return fixedPressure(change.size, 1) + ", may be the mounts alone: they scatter by " +
          fixedPressure(change.scatter.deviation, 1) + " (p = " + roundedText(change.p, 3) +
-         ", needed: below " + roundedText(options.mount_error_rate, 2) + ")";
+         ", needed: below " + roundedText(kMountErrorRate, 2) + ")";
 }
 
 // The sentence of a correction that mounts may explain.
-std::string undecided(const CorrectionCheck& correction, const CheckOptions& options) {
+std::string undecided(const CorrectionCheck& correction) {
   const CommonChange& sheet = correction.mounts->sheet;
   if (sheet.scatter.known()) {
-    return "what the mounts have in common, " + mayBeMounts(sheet, options) +
+    return "what the mounts have in common, " + mayBeMounts(sheet) +
            "; record more new mounts and give all the bags";
   }
   const CorrectionChoice& choice = correction.choice;
@@ -77,23 +80,26 @@ void requireOneMount(const CycleReadings& readings) {
 class CorrectionDecision {
  public:
   CorrectionDecision(const Calibration& parent, const std::vector<Recording>& recordings,
-                     const CheckOptions& options, const CorrectionFit& fit, CheckResult& result)
+                     const CheckOptions& options, CheckResult& result)
       : parent_(parent),
         recordings_(recordings),
         options_(options),
-        fit_(fit),
+        readings_(gatherCycles(parent, recordings)),
+        fit_(readings_),
         of_parent_(result.map),
         result_(result),
-        correction_(result.correction.emplace()) {}
+        correction_(result.correction.emplace()) {
+    if (options.same_mount) requireOneMount(readings_);
+  }
 
   void run() {
     correction_.choice = chooseCorrection(fit_);
-    correction_.expected = of_parent_.whole.expected_rmse;
-    correction_.cycles = fit_.readings().cycles();
-    correction_.surfaces = fit_.readings().surfaces;
-    correction_.remarks = fit_.readings().remarks;
+    correction_.expected = of_parent_.whole.expectedRmse();
+    correction_.cycles = readings_.cycles();
+    correction_.surfaces = readings_.surfaces;
+    correction_.remarks = readings_.remarks;
     result_.verdict = Verdict::kStillGood;
-    const std::string why_not = whyNot(correction_.choice, options_);
+    const std::string why_not = whyNot(correction_.choice);
     result_.reasons = {why_not};
     if (why_not.empty()) makeChild();
     const std::vector<std::string> faults = faultsOf();
@@ -104,8 +110,8 @@ class CorrectionDecision {
       decideOnMounts();
     } else if (explained) {
       correction_.mounts = testMounts(parent_, fit_);
-      const bool changed = correction_.mounts->sheet.p < options_.mount_error_rate;
-      leaveUndecided(changed ? why_not + "; record more new mounts" : undecided(correction_, options_));
+      const bool changed = correction_.mounts->sheet.p < kMountErrorRate;
+      leaveUndecided(changed ? why_not + "; record more new mounts" : undecided(correction_));
     }
   }
 
@@ -187,15 +193,15 @@ class CorrectionDecision {
   // A correction wins, and there are mounts that the training did not have.
   void decideOnMounts() {
     correction_.mounts = testMounts(parent_, fit_);
-    if (!(correction_.mounts->sheet.p < options_.mount_error_rate)) {
-      leaveUndecided(undecided(correction_, options_));
+    if (!(correction_.mounts->sheet.p < kMountErrorRate)) {
+      leaveUndecided(undecided(correction_));
       return;
     }
     const CommonChange& taxels = correction_.mounts->taxels;
-    if (correction_.choice.model != ChangeModel::kTaxels || taxels.p < options_.mount_error_rate) return;
+    if (correction_.choice.model != ChangeModel::kTaxels || taxels.p < kMountErrorRate) return;
     const CorrectionChoice sheet = chooseCorrection(fit_, ChangeModel::kSheet);
-    const std::string why_not = whyNot(sheet, options_);
-    const std::string reason = "what taxels differ by from the whole sheet, " + mayBeMounts(taxels, options_);
+    const std::string why_not = whyNot(sheet);
+    const std::string reason = "what taxels differ by from the whole sheet, " + mayBeMounts(taxels);
     if (!why_not.empty()) {
       leaveUndecided(why_not + "; " + reason + "; record more new mounts");
       return;
@@ -208,7 +214,8 @@ class CorrectionDecision {
   const Calibration& parent_;
   const std::vector<Recording>& recordings_;
   const CheckOptions& options_;
-  const CorrectionFit& fit_;
+  const CycleReadings readings_;
+  const CorrectionFit fit_;
   const MapErrors of_parent_;
   CheckResult& result_;
   CorrectionCheck& correction_;
@@ -222,11 +229,11 @@ void adviseTare(const Calibration& calibration, const std::vector<Recording>& re
   const MapErrors map = errorsOfMap(tared, recordings, options.limits);
   std::vector<std::string>& remarks = result.map.remarks;
   remarks.insert(remarks.end(), map.not_tared.begin(), map.not_tared.end());
-  const double before = map.rmse_without_tare, gain = 1 - map.whole.rmse / before;
+  const double before = map.rmse_without_tare, gain = 1 - map.whole.rmse() / before;
   if (!(gain >= kTareGain)) return;
   const std::string advice = "one tare takes " + settings::percentText(gain) + " off (from " +
                              settings::fixedText(before / 1000, 1) + " to " +
-                             fixedPressure(map.whole.rmse, 1) + ")";
+                             fixedPressure(map.whole.rmse(), 1) + ")";
   if (!map.faults.empty()) {
     remarks.push_back(advice + ", which is not enough");
     return;
@@ -262,12 +269,7 @@ CheckResult check(const Calibration& calibration, const std::vector<Recording>& 
   result.reasons = result.map.faults;
   if (!result.reasons.empty()) result.verdict = Verdict::kRecalibrate;
   if (calibration.shape.present()) result.at_rest = calibration::checkShapes(calibration, recordings);
-  if (options.correct) {
-    const CycleReadings readings = gatherCycles(calibration, recordings);
-    if (options.same_mount) requireOneMount(readings);
-    const CorrectionFit fit(readings);
-    CorrectionDecision(calibration, recordings, options, fit, result).run();
-  }
+  if (options.correct) CorrectionDecision(calibration, recordings, options, result).run();
   if (result.verdict == Verdict::kRecalibrate && !calibration.session_zero.expected())
     adviseTare(calibration, recordings, options, result);
   return result;

@@ -1,17 +1,80 @@
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "calibration/stages/shape/shape_check.h"
-#include "check/map_errors.h"
 #include "fsr_pressure_map/calibration/calibration.h"
+#include "fsr_pressure_map/dataset/recording.h"
 
 // Is a calibration still good? The life of a sheet over dates is in check/sheet_life.h.
 namespace fsr::check {
+
+/// "(0, 3), (2, 9)": row and column of the first eight taxels.
+std::string placesText(const std::vector<std::size_t>& taxels, const matrix::Layout& layout);
+
+/// Limits for the errors of a map on new bags, with all defaults.
+struct MapLimits {
+  double rmse_ratio = 1.3;     ///< RMSE on these bags / RMSE that the calibration expects (ratio)
+  double bias_share = 0.03;    ///< mean error / trained range of pressure (ratio)
+  double beyond_share = 0.05;  ///< share of readings outside the range of training (ratio)
+  double taxel_ratio = 2.0;    ///< a taxel is suspicious from this RMSE / expected RMSE on (ratio)
+  double taxel_share = 0.05;   ///< share of suspicious taxels (ratio)
+};
+
+/// Errors of the readings of one surface or bag, or of all together. Without readings the values are NaN.
+struct CheckedReadings {
+  std::string name;             ///< of the surface or bag; empty = all together
+  std::uint64_t readings = 0;   ///< and how many of them were ...
+  std::uint64_t within = 0;     ///< off by one stated deviation at most
+  std::uint64_t beyond = 0;     ///< outside the range of training
+  std::uint64_t unsettled = 0;  ///< taken before the sheet's memory was settled, see the flag HISTORY_SHORT
+  double error = 0;             ///< sum, map - chamber [Pa]
+  double square = 0;            ///< sum of squares [Pa^2]
+  double expected = 0;          ///< likewise of the stated deviations [Pa^2]
+
+  void add(double difference, double deviation, std::uint16_t flags);
+  double share(std::uint64_t of_readings) const { return double(of_readings) / double(readings); }
+  double expectedRmse() const { return std::sqrt(expected / double(readings)); }  ///< [Pa]
+  double rmse() const { return std::sqrt(square / double(readings)); }            ///< [Pa]
+  double bias() const { return error / double(readings); }                        ///< mean error [Pa]
+};
+
+/// Errors of the live map on recordings with a pressure reference.
+struct MapErrors {
+  std::vector<std::string> faults;   ///< where they are larger than in training, a sentence each, worst first
+  std::vector<std::string> remarks;  ///< other information for the user
+  /// What the calibration promises and these bags cannot show, a sentence each. It is not judged.
+  std::vector<std::string> not_shown;
+  CheckedReadings whole;
+  std::vector<CheckedReadings> surfaces;  ///< of the bags, in their order
+  std::vector<CheckedReadings> bags;      ///< in their order
+  /// By calibration::kIntervalLevels: |error| that this share of all readings does not exceed [Pa].
+  std::array<double, calibration::kIntervalLevels.size()> within = {};
+  calibration::TrainedInterval range;    ///< pressures of the training
+  std::vector<std::size_t> suspicious;   ///< taxels with much larger errors than in training
+  std::vector<std::size_t> dead, stuck;  ///< taxels, as TaxelWatch finds them
+  /// Errors of the static answer and with the model of the sheet's memory: all readings, those where the
+  /// model was not settled, and of the others by direction, by time since the last reversal, by protocol.
+  /// Empty without a model.
+  std::vector<calibration::HistoryScore::Part> history;
+  /// Where the calibration expects a tare, each session was checked with the zero of the rest at its start
+  /// (where it has one). RMSE of all readings without it [Pa]; NaN = no tare is expected.
+  double rmse_without_tare = std::numeric_limits<double>::quiet_NaN();
+  std::vector<std::string> not_tared;  ///< sessions without a tare, and why, a sentence each
+};
+
+/// Scores a calibration on recordings through the same live path as the calibration node. The expected error
+/// is the deviation that the calibration states for each reading, so that a bag at other pressures is judged
+/// fairly. Throws InputError if the recordings have no reference or are of another matrix.
+MapErrors errorsOfMap(const calibration::Calibration& calibration,
+                      const std::vector<dataset::Recording>& recordings, const MapLimits& limits = {});
 
 enum class Verdict {
   kStillGood,   ///< errors are as in training, and no correction is worth a new calibration file
@@ -30,16 +93,8 @@ struct CheckOptions {
   /// Also ask whether a correction of gain and offset is worth it: at least three whole cycles on surfaces of
   /// the training.
   bool correct = false;
-  /// Probability of taking a correction that gains nothing on cycles that were left out (one-sided).
-  double error_rate = 0.01;
-  /// The parent is still good as long as its RMSE is at most this many times that of the correction on cycles
-  /// that were left out: what a correction shall reach of a new calibration.
-  double worth = 1.1;
   /// The sheet was not taken out since the training, so that no mount differs.
   bool same_mount = false;
-  /// Otherwise the probability of taking a correction where only the mounts differ. A correction by taxel
-  /// must pass the same test once more.
-  double mount_error_rate = 0.05;
   std::string date;  ///< of a correction, ISO 8601, UTC; empty = now
 };
 
@@ -126,10 +181,12 @@ struct CheckResult {
 /// Without CheckOptions::correct the errors of the map decide: kStillGood or kRecalibrate.
 ///
 /// A correction is taken where all of these hold:
-///   - on cycles that were left out its error is smaller, and chance makes that so with `error_rate` at most;
-///   - the parent's RMSE is more than `worth` times that of the correction;
+///   - on cycles that were left out its error is smaller, and chance makes that so in 1 % of the cases at
+///     most (one-sided);
+///   - the parent's RMSE is more than 1.1 times that of the correction. A smaller gain is not worth a new
+///     calibration file;
 ///   - the sheet was not taken out since the training, or what all mounts have in common is more than mounts
-///     alone do, at `mount_error_rate` (testCommonChange()).
+///     alone do, at 5 % (testCommonChange()). A correction by taxel must pass that test, too.
 /// Where only the last one does not hold, the verdict is kCannotTell, or kStillGood where the deviations of
 /// the parent contain its mounts. The verdict is kRecalibrate where the errors of the best of parent and
 /// correction are beyond the limits, or its error on cycles that were left out is; kCannotTell where new

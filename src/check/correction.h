@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -115,8 +116,8 @@ class CorrectionFit {
     std::vector<Sums> sums;  // [cycles]
 
     Sums total(const Cycles& cycles) const;
-    // The change by some sums; false where their readings do not determine it.
-    bool solve(const Sums& of, Change& change) const;
+    // The change by some sums, where their readings determine it.
+    std::optional<Change> solve(const Sums& of) const;
   };
 
   ReadingChange toReading(const Change& change) const;

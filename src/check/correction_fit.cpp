@@ -53,11 +53,11 @@ CorrectionFit::Sums CorrectionFit::Solution::total(const Cycles& cycles) const {
   return total;
 }
 
-bool CorrectionFit::Solution::solve(const Sums& of, Change& change) const {
-  if (!(of.matrix.determinant() > kDetermined * of.matrix(0, 0) * of.matrix(1, 1))) return false;
-  change = centre + of.matrix.inverse() * of.right;
+std::optional<CorrectionFit::Change> CorrectionFit::Solution::solve(const Sums& of) const {
+  if (!(of.matrix.determinant() > kDetermined * of.matrix(0, 0) * of.matrix(1, 1))) return std::nullopt;
+  Change change = centre + of.matrix.inverse() * of.right;
   change[1] = std::min(std::max(change[1], -kLargestStretch), 1 / (1 - kLargestStretch));
-  return true;
+  return change;
 }
 
 CorrectionFit::CorrectionFit(const CycleReadings& readings)
@@ -81,7 +81,7 @@ ReadingChange CorrectionFit::toReading(const Change& change) const {
 
 void CorrectionFit::fitSheet() {
   for (int step = 0; step <= kSteps; ++step) {
-    if (step > 0) sheet_.solve(sheet_.total(all_), sheet_.centre);
+    if (step > 0) sheet_.centre = sheet_.solve(sheet_.total(all_)).value_or(sheet_.centre);
     sheet_.sums.assign(all_.size(), {});
     around_sheet_.assign(readings_.stays.front().answers.size(), {sheet_.centre, sheet_.sums});
     for (std::size_t taxel = 0; taxel < around_sheet_.size(); ++taxel) {
@@ -98,8 +98,9 @@ void CorrectionFit::fitTaxel(std::size_t taxel) {
   Solution start{sheet_.centre, none};
   double best = addTaxel(taxel, start);
   for (int step = 0; step < kSteps; ++step) {
-    Solution next{{}, none};
-    if (!taxels_[taxel].solve(taxels_[taxel].total(all_), next.centre)) return;
+    const std::optional<Change> centre = taxels_[taxel].solve(taxels_[taxel].total(all_));
+    if (!centre) return;
+    Solution next{*centre, none};
     const double error = addTaxel(taxel, next);
     if (!(error < best)) return;
     best = error;
@@ -135,9 +136,9 @@ CorrectionFit::Change CorrectionFit::jackknifeVariance(const Solution& taxel, co
     if (!cycles[cycle]) continue;
     Sums rest = all;
     rest.add(taxel.sums[cycle], -1);
-    Change change;
-    if (!taxel.solve(rest, change)) return {-1, -1};
-    square += (change - whole).cwiseAbs2();
+    const std::optional<Change> change = taxel.solve(rest);
+    if (!change) return {-1, -1};
+    square += (*change - whole).cwiseAbs2();
     number += 1;
   }
   if (number < 2) return {-1, -1};
@@ -150,7 +151,9 @@ std::vector<CorrectionFit::Change> CorrectionFit::shrunk(const Cycles& cycles, c
   Change between = Change::Zero(), within = Change::Zero();
   double number = 0;
   for (std::size_t taxel = 0; taxel < taxels_.size(); ++taxel) {
-    if (!taxels_[taxel].solve(taxels_[taxel].total(cycles), own[taxel])) continue;
+    const std::optional<Change> solved = taxels_[taxel].solve(taxels_[taxel].total(cycles));
+    if (!solved) continue;
+    own[taxel] = *solved;
     variance[taxel] = jackknifeVariance(taxels_[taxel], cycles, own[taxel]);
     if (variance[taxel][0] < 0) continue;
     between += (own[taxel] - sheet).cwiseAbs2();
@@ -178,20 +181,16 @@ void CorrectionFit::addEffect(const Sums& sums, const Change& change, std::vecto
 }
 
 std::vector<double> CorrectionFit::sheetEffect(const Cycles& cycles) const {
-  Change sheet = sheet_.centre;  // where the cycles do not determine it
-  sheet_.solve(sheet_.total(cycles), sheet);
   std::vector<double> effect;
-  addEffect(sheet_.total(all_), sheet, effect);
+  addEffect(sheet_.total(all_), sheet_.solve(sheet_.total(cycles)).value_or(sheet_.centre), effect);
   return effect;
 }
 
 std::vector<double> CorrectionFit::taxelEffects(const Cycles& cycles) const {
-  Change sheet = sheet_.centre;
-  sheet_.solve(sheet_.total(cycles), sheet);
+  const Change sheet = sheet_.solve(sheet_.total(cycles)).value_or(sheet_.centre);
   std::vector<double> effects;
   for (std::size_t taxel = 0; taxel < taxels_.size(); ++taxel) {
-    Change own = sheet;
-    taxels_[taxel].solve(taxels_[taxel].total(cycles), own);
+    const Change own = taxels_[taxel].solve(taxels_[taxel].total(cycles)).value_or(sheet);
     addEffect(around_sheet_[taxel].total(all_), own - sheet, effects);
   }
   return effects;
@@ -199,10 +198,10 @@ std::vector<double> CorrectionFit::taxelEffects(const Cycles& cycles) const {
 
 std::vector<ReadingChange> CorrectionFit::fit(ChangeModel model, const Cycles& cycles) const {
   std::vector<ReadingChange> result(taxels_.size());
-  Change sheet;
-  if (model == ChangeModel::kNone || !sheet_.solve(sheet_.total(cycles), sheet)) return result;
-  std::vector<Change> changes(taxels_.size(), sheet);
-  if (model == ChangeModel::kTaxels) changes = shrunk(cycles, sheet);
+  const std::optional<Change> sheet = sheet_.solve(sheet_.total(cycles));
+  if (model == ChangeModel::kNone || !sheet) return result;
+  std::vector<Change> changes(taxels_.size(), *sheet);
+  if (model == ChangeModel::kTaxels) changes = shrunk(cycles, *sheet);
   for (std::size_t taxel = 0; taxel < result.size(); ++taxel) result[taxel] = toReading(changes[taxel]);
   return result;
 }

@@ -14,6 +14,7 @@
 #include "fsr_pressure_map/dataset/condition_classes.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "settings/number_text.h"
+#include "settings/text.h"
 
 namespace fsr::check {
 
@@ -53,20 +54,20 @@ void requireSameBoard(const Calibration& parent, const dataset::Recording& recor
 
 void requireTrainedSurface(const Calibration& parent, const dataset::Recording& recording,
                            const dataset::CurvatureClass& surface) {
-  std::string names;
-  for (const dataset::ConditionCoverage& trained : parent.coverage.conditions) {
-    bool same = trained.condition.surface == surface.surface;
-    if (parent.tables.scheme != compensation::Scheme::kPerSurface) {
-      same = true;
-      for (std::size_t i = 0; same && i < parent.layout.size.taxels(); ++i)
-        same = std::abs(trained.condition.at(i) - surface.at(i)) <= dataset::kSameClassCurvature;
+  const std::vector<dataset::ConditionCoverage>& trained = parent.coverage.conditions;
+  const auto same = [&](const dataset::ConditionCoverage& one) {
+    if (parent.tables.scheme == compensation::Scheme::kPerSurface)
+      return one.condition.surface == surface.surface;
+    for (std::size_t i = 0; i < parent.layout.size.taxels(); ++i) {
+      if (!(std::abs(one.condition.at(i) - surface.at(i)) <= dataset::kSameClassCurvature)) return false;
     }
-    if (same) return;
-    names += (names.empty() ? "" : ", ") + trained.condition.surface;
-  }
+    return true;
+  };
+  if (std::any_of(trained.begin(), trained.end(), same)) return;
+  const auto name = [](const dataset::ConditionCoverage& one) { return one.condition.surface; };
   throw settings::InputError(recording.name + ": the surface \"" + surface.surface +
                              "\" is not one that calibration " + parent.id +
-                             " was trained on; recheck on one of " + names);
+                             " was trained on; recheck on one of " + settings::joinedTexts(trained, name));
 }
 
 std::vector<AnswerTable> answersOn(const Calibration& parent, const matrix::Surface& surface) {

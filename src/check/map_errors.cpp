@@ -1,9 +1,8 @@
-#include "check/map_errors.h"
+#include "check/check.h"
 
 #include <algorithm>
 #include <cmath>
 #include <deque>
-#include <map>
 #include <set>
 
 #include "calibration/sources.h"
@@ -30,54 +29,11 @@ constexpr std::uint64_t kLeastReadings = 100;                   // of a taxel, b
 constexpr std::size_t kUnsettled = calibration::kHistoryParts;  // place of the readings before it was settled
 constexpr std::size_t kFirstProtocol = kUnsettled + 1;
 
-// Sums over the readings of one surface, of one taxel, or of all.
-struct Sums {
-  std::uint64_t readings = 0;
-  std::uint64_t within = 0;
-  std::uint64_t beyond = 0;
-  std::uint64_t not_settled = 0;
-  double error = 0;     // [Pa]
-  double square = 0;    // [Pa^2]
-  double expected = 0;  // of the stated deviations [Pa^2]
-
-  void add(double e, double deviation, std::uint16_t flags) {
-    constexpr std::uint16_t kBeyond =
-        map::taxel_flag::kReadingExtrapolated | map::taxel_flag::kCurvatureExtrapolated;
-    ++readings;
-    within += std::abs(e) <= deviation;
-    beyond += (flags & kBeyond) != 0;
-    not_settled += (flags & map::taxel_flag::kHistoryShort) != 0;
-    error += e;
-    square += e * e;
-    expected += deviation * deviation;
-  }
-  double rmse() const { return std::sqrt(square / double(readings)); }
-  double expectedRmse() const { return std::sqrt(expected / double(readings)); }
-
-  CheckedReadings summary(const std::string& name) const {
-    const auto n = double(readings);
-    if (readings == 0) return {name};
-    return {name,      readings,           expectedRmse(),     rmse(),
-            error / n, double(within) / n, double(beyond) / n, double(not_settled) / n};
-  }
-};
-
 // Of the readings of one part of the model of the sheet's memory.
 struct PartSums {
   std::uint64_t readings = 0, within = 0;
   double static_square = 0, square = 0;  // [Pa^2]
 };
-
-// "(0, 3), (2, 9)": row and column.
-std::string places(const std::vector<std::size_t>& taxels, const matrix::Layout& layout) {
-  constexpr std::size_t kListed = 8;
-  std::string list;
-  for (std::size_t i = 0; i < std::min(taxels.size(), kListed); ++i) {
-    list += (i == 0 ? "(" : ", (") + std::to_string(layout.row({taxels[i]})) + ", " +
-            std::to_string(layout.column({taxels[i]})) + ")";
-  }
-  return taxels.size() > kListed ? list + ", ..." : list;
-}
 
 // The live map of a recording: as a node shows it, or without the model of memory or the tare.
 struct LiveMap {
@@ -101,7 +57,8 @@ class Checker {
   Checker(const Calibration& calibration, const std::vector<Recording>& recordings)
       : calibration_(calibration), static_(calibration), taxels_(calibration.layout.size.taxels()) {
     static_.history = {};
-    for (const Recording& recording : recordings) bags_.push_back({recording.name, {}});
+    errors_.range = calibration.trained.pressure;
+    for (const Recording& recording : recordings) errors_.bags.emplace_back().name = recording.name;
     if (!calibration.history.present()) return;
     for (const Recording& recording : recordings)
       sections_.push_back(dataset::divideIntoSections(recording, calibration.folds));
@@ -121,19 +78,20 @@ class Checker {
     }
     const double start = double(recording.start_ns - first_ns_) * 1e-9;
     for (LiveMap& one : maps_) one.calibrator.setMask(recording.mask);
-    std::size_t surface = recording.conditions.size();
+    std::size_t surface = recording.conditions.size(), checked = 0;  // its place in the result
     double turned = 0;  // when the chamber last changed its direction
     dataset::ScanCounts counts(recording);
     for (std::size_t i = 0; i < recording.scans(); ++i) {
       const bool moved = recording.condition[i] != surface;
       surface = recording.condition[i];
+      if (moved) checked = placeOf(recording.conditions[surface].name);
       if (moved && (i > 0 || !lies_on)) setSurface(recording, i, start + recording.time[i]);
       const matrix::ScanView scan{recording.layout.size, recording.full_scale, counts[i], taxels_.size()};
       for (LiveMap& one : maps_) {
         calibration::setTemperatureOf(recording, i, calibration_, one.calibrator);
         one.calibrator.calibrate(scan, start + recording.time[i], one.map);
       }
-      add(scan.counts, recording.pressure[i], maps_.front(), surfaces_[recording.conditions[surface].name]);
+      add(scan.counts, recording.pressure[i], maps_.front(), errors_.surfaces[checked]);
       if (calibration_.session_zero.expected()) addUntared(scan.counts, recording.pressure[i], maps_.back());
       if (!calibration_.history.present()) continue;
       const dataset::Sections& sections = sections_[number];
@@ -146,16 +104,12 @@ class Checker {
   }
 
   MapErrors result(const MapLimits& limits) const {
-    MapErrors errors;
-    errors.range = calibration_.trained.pressure;
-    errors.whole = whole_.summary("");
-    for (const std::string& name : order_) errors.surfaces.push_back(surfaces_.at(name).summary(name));
-    for (const auto& [name, sums] : bags_) errors.bags.push_back(sums.summary(name));
+    MapErrors errors = errors_;
     for (std::size_t level = 0; level < errors.within.size(); ++level)
       errors.within[level] = sizes_.quantile(calibration::kIntervalLevels[level]);
     for (std::size_t i = 0; i < taxels_.size(); ++i) {
-      const Sums& sums = taxels_[i];
-      if (sums.readings >= kLeastReadings && sums.rmse() > limits.taxel_ratio * sums.expectedRmse())
+      const CheckedReadings& taxel = taxels_[i];
+      if (taxel.readings >= kLeastReadings && taxel.rmse() > limits.taxel_ratio * taxel.expectedRmse())
         errors.suspicious.push_back(i);
     }
     errors.dead.assign(dead_.begin(), dead_.end());
@@ -166,11 +120,18 @@ class Checker {
   }
 
  private:
+  std::size_t placeOf(const std::string& surface) {
+    const auto found = std::find_if(errors_.surfaces.begin(), errors_.surfaces.end(),
+                                    [&](const CheckedReadings& one) { return one.name == surface; });
+    if (found != errors_.surfaces.end()) return static_cast<std::size_t>(found - errors_.surfaces.begin());
+    errors_.surfaces.emplace_back().name = surface;
+    return errors_.surfaces.size() - 1;
+  }
+
   // `time`: in the time of the live maps [s].
   void setSurface(const Recording& recording, std::size_t scan, double time) {
     const std::size_t condition = recording.condition[scan];
     const matrix::Surface& surface = recording.conditions[condition];
-    if (surfaces_.try_emplace(surface.name).second) order_.push_back(surface.name);
     std::vector<float> offset;
     if (calibration_.session_zero.expected()) {
       offset = calibration::tareAtStart(calibration_, recording, condition);
@@ -186,12 +147,12 @@ class Checker {
     }
   }
 
-  void add(const std::uint16_t* counts, double pressure, const LiveMap& live, Sums& surface) {
+  void add(const std::uint16_t* counts, double pressure, const LiveMap& live, CheckedReadings& surface) {
     for (std::size_t i = 0; i < taxels_.size(); ++i) {
       if (!live.hasValue(i, counts[i])) continue;
       const double error = live.map.pressure[i] - pressure;
-      for (Sums* sums : {&whole_, &surface, &bags_[number_].second, &taxels_[i]})
-        sums->add(error, live.map.deviation[i], live.map.flags[i]);
+      for (CheckedReadings* one : {&errors_.whole, &surface, &errors_.bags[number_], &taxels_[i]})
+        one->add(error, live.map.deviation[i], live.map.flags[i]);
       sizes_.add(static_cast<float>(error));
     }
   }
@@ -261,12 +222,10 @@ class Checker {
   std::int64_t first_ns_ = 0;                // of the first recording that the maps saw
   std::vector<dataset::Sections> sections_;  // [recordings], for that model
   dataset::Protocols protocols_;             // likewise
-  Sums whole_, untared_;
-  statistics::ErrorSizes sizes_;                    // of the errors [Pa]
-  std::vector<std::pair<std::string, Sums>> bags_;  // by name
-  std::map<std::string, Sums> surfaces_;
-  std::vector<std::string> order_;  // of the surfaces
-  std::vector<Sums> taxels_;
+  MapErrors errors_;
+  CheckedReadings untared_;
+  statistics::ErrorSizes sizes_;  // of the errors [Pa]
+  std::vector<CheckedReadings> taxels_;
   std::vector<PartSums> parts_;
   std::set<std::size_t> dead_, stuck_;
   std::set<std::string> not_tared_;  // a sentence for each session
@@ -280,21 +239,22 @@ void judge(const CheckedReadings& checked, double range, const MapLimits& limits
            std::vector<std::string>& faults) {
   const std::string where = checked.name.empty() ? "" : "on " + checked.name + " ";
   if (checked.readings == 0) return;
-  if (checked.beyond_training > limits.beyond_share) {
-    faults.push_back(where + settings::percentText(checked.beyond_training) +
+  const double beyond = checked.share(checked.beyond), bias = checked.bias();
+  if (beyond > limits.beyond_share) {
+    faults.push_back(where + settings::percentText(beyond) +
                      " of the readings are outside the range of training" +
                      allowed(settings::percentText(limits.beyond_share)));
   }
-  if (checked.rmse > limits.rmse_ratio * checked.expected_rmse) {
-    faults.push_back(where + "errors are " + settings::fixedText(checked.rmse / checked.expected_rmse, 2) +
-                     " times the expected ones (RMSE " + settings::fixedPressure(checked.rmse, 1) +
-                     ", expected " + settings::fixedPressure(checked.expected_rmse, 1) +
+  if (checked.rmse() > limits.rmse_ratio * checked.expectedRmse()) {
+    faults.push_back(where + "errors are " + settings::fixedText(checked.rmse() / checked.expectedRmse(), 2) +
+                     " times the expected ones (RMSE " + settings::fixedPressure(checked.rmse(), 1) +
+                     ", expected " + settings::fixedPressure(checked.expectedRmse(), 1) +
                      "; allowed: " + settings::fixedText(limits.rmse_ratio, 2) + " times)");
   }
-  if (std::abs(checked.bias) > limits.bias_share * range) {
-    faults.push_back(where + "maps are " + settings::fixedPressure(std::abs(checked.bias), 1) +
-                     (checked.bias > 0 ? " above" : " below") + " the chamber pressure on average, " +
-                     settings::percentText(std::abs(checked.bias) / range) + " of the range" +
+  if (std::abs(bias) > limits.bias_share * range) {
+    faults.push_back(where + "maps are " + settings::fixedPressure(std::abs(bias), 1) +
+                     (bias > 0 ? " above" : " below") + " the chamber pressure on average, " +
+                     settings::percentText(std::abs(bias) / range) + " of the range" +
                      allowed(settings::percentText(limits.bias_share)));
   }
 }
@@ -302,15 +262,15 @@ void judge(const CheckedReadings& checked, double range, const MapLimits& limits
 void judgeTaxels(const Calibration& calibration, const MapLimits& limits, MapErrors& errors) {
   const matrix::Layout& layout = calibration.layout;
   const std::string larger = "errors more than " + settings::fixedText(limits.taxel_ratio, 1) +
-                             " times the expected ones: " + places(errors.suspicious, layout);
+                             " times the expected ones: " + placesText(errors.suspicious, layout);
   if (double(errors.suspicious.size()) > limits.taxel_share * double(layout.size.taxels())) {
     errors.faults.push_back(std::to_string(errors.suspicious.size()) + " taxels (row, column) have " +
                             larger);
   } else if (!errors.suspicious.empty()) {
     errors.remarks.push_back("taxels (row, column) with " + larger);
   }
-  if (!errors.dead.empty()) errors.faults.push_back("taxels are dead: " + places(errors.dead, layout));
-  if (!errors.stuck.empty()) errors.faults.push_back("taxels are stuck: " + places(errors.stuck, layout));
+  if (!errors.dead.empty()) errors.faults.push_back("taxels are dead: " + placesText(errors.dead, layout));
+  if (!errors.stuck.empty()) errors.faults.push_back("taxels are stuck: " + placesText(errors.stuck, layout));
 }
 
 std::string memoryNotShown(const Calibration& calibration, double not_settled) {
@@ -329,8 +289,9 @@ void noteWhatIsNotShown(const Calibration& calibration, const std::vector<Record
                         MapErrors& errors) {
   constexpr double kMost = 0.5;    // of the readings: their RMSE is then that of the others
   constexpr double kLoaded = 0.9;  // of the trained pressures, as in the coverage of a training
-  if (calibration.history.present() && errors.whole.not_settled > kMost)
-    errors.not_shown.push_back(memoryNotShown(calibration, errors.whole.not_settled));
+  const double unsettled = errors.whole.share(errors.whole.unsettled);
+  if (calibration.history.present() && unsettled > kMost)
+    errors.not_shown.push_back(memoryNotShown(calibration, unsettled));
   double highest = 0;
   for (const Recording& recording : recordings) {
     for (const double pressure : recording.pressure) highest = std::max(highest, pressure);
@@ -342,6 +303,28 @@ void noteWhatIsNotShown(const Calibration& calibration, const std::vector<Record
 }
 
 }  // namespace
+
+std::string placesText(const std::vector<std::size_t>& taxels, const matrix::Layout& layout) {
+  constexpr std::size_t kListed = 8;
+  std::string list;
+  for (std::size_t i = 0; i < std::min(taxels.size(), kListed); ++i) {
+    list += (i == 0 ? "(" : ", (") + std::to_string(layout.row({taxels[i]})) + ", " +
+            std::to_string(layout.column({taxels[i]})) + ")";
+  }
+  return taxels.size() > kListed ? list + ", ..." : list;
+}
+
+void CheckedReadings::add(double difference, double deviation, std::uint16_t flags) {
+  constexpr std::uint16_t kBeyond =
+      map::taxel_flag::kReadingExtrapolated | map::taxel_flag::kCurvatureExtrapolated;
+  ++readings;
+  within += std::abs(difference) <= deviation;
+  beyond += (flags & kBeyond) != 0;
+  unsettled += (flags & map::taxel_flag::kHistoryShort) != 0;
+  error += difference;
+  square += difference * difference;
+  expected += deviation * deviation;
+}
 
 MapErrors errorsOfMap(const Calibration& calibration, const std::vector<Recording>& recordings,
                       const MapLimits& limits) {

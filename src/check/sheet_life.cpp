@@ -109,18 +109,16 @@ Row rowOf(const std::vector<const SheetState*>& states, const std::string& surfa
   row.error = meanOfKnown(error);
   row.dead = {dead.begin(), dead.end()};
   row.stuck = {stuck.begin(), stuck.end()};
-  for (const auto& [of_row, of_surface] : {std::pair{&Row::gain, &SurfaceState::gain},
-                                           {&Row::gain_scatter, &SurfaceState::gain_scatter},
-                                           {&Row::zero, &SurfaceState::zero},
-                                           {&Row::noise, &SurfaceState::noise}}) {
+  for (double SurfaceState::*const member :
+       {&SurfaceState::gain, &SurfaceState::gain_scatter, &SurfaceState::zero, &SurfaceState::noise}) {
     std::vector<double> values;
     for (const SheetState* const state : states) {
       for (const SurfaceState& on : state->surfaces) {
         // Without recordings there is no usual surface: the mean of the surfaces of each calibration.
-        if (surface.empty() || on.surface == surface) values.push_back(on.*of_surface);
+        if (surface.empty() || on.surface == surface) values.push_back(on.*member);
       }
     }
-    row.*of_row = meanOfKnown(values);
+    row.*member = meanOfKnown(values);
   }
   return row;
 }

@@ -116,15 +116,13 @@ struct LifeOptions {
 };
 
 /// All recordings of one day, or all calibrations: one row of the table. Values are means over its files.
-struct Row {
-  bool calibration = false;        ///< or recordings
-  std::int64_t date_ns = 0;        ///< of its first file [ns]
-  std::vector<std::string> files;  ///< in the order of time
-  double gain = kUnknown, gain_scatter = kUnknown;
-  double zero = kUnknown, noise = kUnknown;  ///< [counts]
-  double temperature = kUnknown;             ///< [degree Celsius]
-  double error = kUnknown;                   ///< of held-out readings [Pa]
-  std::vector<std::size_t> dead, stuck;      ///< in any of its files, ascending
+struct Row : SurfaceState {
+  bool calibration = false;              ///< or recordings
+  std::int64_t date_ns = 0;              ///< of its first file [ns]
+  std::vector<std::string> files;        ///< in the order of time
+  double temperature = kUnknown;         ///< [degree Celsius]
+  double error = kUnknown;               ///< of held-out readings [Pa]
+  std::vector<std::size_t> dead, stuck;  ///< in any of its files, ascending
 };
 
 /// A column of numbers that is tested for sudden changes (testSteps()).

@@ -6,6 +6,7 @@
 
 #include "calibration/sources.h"
 #include "calibration/stages/temperature/temperature_course.h"
+#include "check/check.h"
 #include "dataset/count_readers.h"
 #include "fsr_pressure_map/calibration/calibrator.h"
 #include "fsr_pressure_map/settings/input_error.h"
@@ -17,40 +18,35 @@ namespace fsr::check {
 
 namespace {
 
+constexpr double kRestTime = 2.0;  // shortest rest before and after [s]
+constexpr double kRestShare =
+    0.25;  // largest reading at rest, on the way from the lowest one to the usual load
+constexpr double kRestChange = 0.02;      // of a taxel from rest before to rest after [share of full scale]
+constexpr double kChangedShare = 0.05;    // of taxels that may change by more
+constexpr double kSaturatedShare = 0.01;  // of readings at full scale
+constexpr double kBeyondShare = 0.05;     // of readings outside of training
+constexpr double kContactShare = 0.10;    // a taxel is loaded from this reading on [share of full scale]
+constexpr double kStaticRange = 0.20;   // a load is static while it varies by less than this share of itself
+constexpr double kStaticLoad = 300;     // longest static load without a remark about creep [s]
 constexpr double kAtTheEnds = 0.25;     // share of the recording: rest is searched in its first and last part
 constexpr double kFarBelowLoad = 0.5;   // share of the usual load
 constexpr double kShortestCell = 0.25;  // loads are averaged over this time: short compared with a step [s],
 constexpr double kScansOfCell = 2.5;    // and long compared with the time between scans
 
-std::string place(const matrix::Layout& layout, std::size_t taxel) {
-  return "(" + std::to_string(layout.row({taxel})) + ", " + std::to_string(layout.column({taxel})) + ")";
-}
+using Means = std::vector<statistics::RunningMoments>;  // [taxels]
 
-// Mean pressure of each taxel over a rest.
-class RestPressure {
- public:
-  RestPressure(const std::optional<SocketRest>& rest, std::size_t taxels)
-      : rest_(rest), sum_(taxels, 0.0), readings_(taxels, 0.0) {}
-  void add(const map::PressureMap& map, double time) {
-    if (!rest_ || time < rest_->from || time > rest_->to) return;
-    for (std::size_t t = 0; t < sum_.size(); ++t) {
-      if (std::isnan(map.pressure[t])) continue;
-      sum_[t] += double(map.pressure[t]);
-      readings_[t] += 1;
-    }
+// Adds the pressures of a map within a rest.
+void addTo(Means& means, const std::optional<SocketRest>& rest, const map::PressureMap& map, double time) {
+  if (!rest || time < rest->from || time > rest->to) return;
+  for (std::size_t t = 0; t < means.size(); ++t) {
+    if (!std::isnan(map.pressure[t])) means[t].add(double(map.pressure[t]));
   }
-  double mean(std::size_t taxel) const { return sum_[taxel] / readings_[taxel]; }
-
- private:
-  const std::optional<SocketRest>& rest_;
-  std::vector<double> sum_, readings_;
-};
+}
 
 class SocketChecker {
  public:
-  SocketChecker(const dataset::Recording& recording, const calibration::Calibration* calibration,
-                const SocketCheckOptions& options)
-      : recording_(recording), calibration_(calibration), options_(options), counts_(recording) {
+  SocketChecker(const dataset::Recording& recording, const calibration::Calibration* calibration)
+      : recording_(recording), calibration_(calibration), counts_(recording) {
     for (std::size_t t = 0; t < taxels(); ++t) {
       if (recording.mask.empty() || recording.mask[t] == 0) used_.push_back(t);
     }
@@ -99,8 +95,8 @@ class SocketChecker {
     const double usual = usualLoad();
     const std::optional<Stretch> lowest = lowestStretch(0, recording_.time.back(), INFINITY);
     const double low = lowest ? lowest->mean : INFINITY;
-    const double limit = options_.rest_share * usual;
-    return low <= kFarBelowLoad * usual ? std::max(limit, low + options_.rest_share * (usual - low)) : limit;
+    const double limit = kRestShare * usual;
+    return low <= kFarBelowLoad * usual ? std::max(limit, low + kRestShare * (usual - low)) : limit;
   }
 
   // Scans [first, end) with the mean reading of the sheet.
@@ -115,10 +111,10 @@ class SocketChecker {
     std::optional<Stretch> best;
     double sum = 0;
     for (std::size_t first = 0, end = 0; first < time.size(); ++first) {
-      while (end < time.size() && (end <= first || time[end - 1] - time[first] < options_.rest_time)) {
+      while (end < time.size() && (end <= first || time[end - 1] - time[first] < kRestTime)) {
         sum += mean_[end++];
       }
-      if (time[end - 1] - time[first] < options_.rest_time || time[end - 1] > to) break;
+      if (time[end - 1] - time[first] < kRestTime || time[end - 1] > to) break;
       const double mean = sum / double(end - first);
       if (time[first] >= from && mean <= least) {
         least = mean;
@@ -159,7 +155,7 @@ class SocketChecker {
     for (const std::size_t t : used_) {
       check_.change[t] = check_.after->readings[t] - check_.before->readings[t];
       changes.push_back(check_.change[t]);
-      check_.changed += std::abs(check_.change[t]) > options_.rest_change;
+      check_.changed += std::abs(check_.change[t]) > kRestChange;
       if (std::abs(check_.change[t]) > std::abs(check_.change[check_.worst])) check_.worst = t;
     }
     check_.median_change = statistics::upperMedian(changes);
@@ -171,7 +167,7 @@ class SocketChecker {
     calibrator.setMask(recording_.mask);
     std::size_t surface = recording_.conditions.size(), readings = 0, beyond = 0, bent = 0;
     map::PressureMap map;
-    RestPressure before(check_.before, taxels()), after(check_.after, taxels());
+    Means before(taxels()), after(taxels());
     for (std::size_t i = 0; i < recording_.scans(); ++i) {
       const double time = recording_.time[i];
       if (recording_.condition[i] != surface) {
@@ -189,8 +185,8 @@ class SocketChecker {
                   map::taxel_flag::kReadingExtrapolated;  // a taxel below is at rest
         bent += (map.flags[t] & map::taxel_flag::kCurvatureExtrapolated) != 0;
       }
-      before.add(map, time);
-      after.add(map, time);
+      addTo(before, check_.before, map, time);
+      addTo(after, check_.after, map, time);
     }
     if (readings == 0) return;
     check_.beyond = double(beyond) / double(readings);
@@ -198,8 +194,7 @@ class SocketChecker {
     if (!check_.before || !check_.after) return;
     std::vector<double> changes;
     for (const std::size_t t : used_) {
-      const double change = after.mean(t) - before.mean(t);
-      if (!std::isnan(change)) changes.push_back(change);
+      if (before[t].count > 0 && after[t].count > 0) changes.push_back(after[t].mean - before[t].mean);
     }
     check_.median_pressure_change = statistics::upperMedian(changes);
   }
@@ -233,7 +228,7 @@ class SocketChecker {
     const std::vector<double> load = byCell(taxel, span, events);
     std::deque<std::size_t> high, low;
     for (std::size_t from = 0, to = 0; to < load.size(); ++to) {
-      if (!(load[to] >= options_.contact_share)) {  // also NaN
+      if (!(load[to] >= kContactShare)) {  // also NaN
         from = to + 1;
         high.clear();
         low.clear();
@@ -243,7 +238,7 @@ class SocketChecker {
       while (!low.empty() && load[low.back()] >= load[to]) low.pop_back();
       high.push_back(to);
       low.push_back(to);
-      while (load[high.front()] - load[low.front()] > options_.static_range * load[high.front()]) {
+      while (load[high.front()] - load[low.front()] > kStaticRange * load[high.front()]) {
         ++from;
         if (high.front() < from) high.pop_front();
         if (low.front() < from) low.pop_front();
@@ -261,28 +256,22 @@ class SocketChecker {
     auto& reasons = check_.reasons;
     if (!check_.before) reasons.push_back("no rest was recorded before: start to record before it is put on");
     if (!check_.after) reasons.push_back("no rest was recorded after: record until it is off again");
-    if (double(check_.changed) > options_.changed_share * double(used_.size())) {
+    if (double(check_.changed) > kChangedShare * double(used_.size())) {
       reasons.push_back(std::to_string(check_.changed) +
                         " taxels changed between rest before and rest after by more than " +
-                        settings::percentText(options_.rest_change) + " of full scale");
+                        settings::percentText(kRestChange) + " of full scale");
     }
-    if (check_.saturated > options_.saturated_share) {
-      reasons.push_back(settings::percentText(check_.saturated) +
-                        " of the readings are at full scale (allowed: " +
-                        settings::percentText(options_.saturated_share) + ")");
-    }
-    if (check_.beyond > options_.beyond_share) {
-      reasons.push_back(settings::percentText(check_.beyond) +
-                        " of the readings are outside the range of training (allowed: " +
-                        settings::percentText(options_.beyond_share) + ")");
-    }
-    if (check_.bent_beyond > options_.beyond_share) {
-      reasons.push_back(settings::percentText(check_.bent_beyond) +
-                        " of the readings have a curvature outside the range of training (allowed: " +
-                        settings::percentText(options_.beyond_share) + ")");
-    }
-    if (check_.longest.seconds > options_.static_load) {
-      reasons.push_back("taxel " + place(check_.layout, check_.longest.taxel) +
+    const auto tooMany = [&](double share, double allowed, const std::string& what) {
+      if (share > allowed) {
+        reasons.push_back(settings::percentText(share) + " of the readings " + what +
+                          " (allowed: " + settings::percentText(allowed) + ")");
+      }
+    };
+    tooMany(check_.saturated, kSaturatedShare, "are at full scale");
+    tooMany(check_.beyond, kBeyondShare, "are outside the range of training");
+    tooMany(check_.bent_beyond, kBeyondShare, "have a curvature outside the range of training");
+    if (check_.longest.seconds > kStaticLoad) {
+      reasons.push_back("taxel " + placesText({check_.longest.taxel}, check_.layout) +
                         " carried a constant load for " + settings::fixedText(check_.longest.seconds, 0) +
                         " s, so creep may change its reading");
     }
@@ -292,7 +281,6 @@ class SocketChecker {
 
   const dataset::Recording& recording_;
   const calibration::Calibration* calibration_;
-  const SocketCheckOptions& options_;
   dataset::ScanCounts counts_;
   std::vector<std::size_t> used_;  // taxels that are not masked
   std::vector<double> mean_;       // of each scan over them [share of full scale]
@@ -303,9 +291,9 @@ class SocketChecker {
 }  // namespace
 
 SocketCheck checkSocket(const dataset::Recording& recording, const DonDoff& events,
-                        const calibration::Calibration* calibration, const SocketCheckOptions& options) {
+                        const calibration::Calibration* calibration) {
   if (recording.scans() == 0) throw settings::InputError(recording.name + ": has no scan");
-  return SocketChecker(recording, calibration, options).run(events);
+  return SocketChecker(recording, calibration).run(events);
 }
 
 }  // namespace fsr::check

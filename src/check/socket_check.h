@@ -11,21 +11,6 @@
 
 namespace fsr::check {
 
-/// Limits beyond which a recording in a socket should be examined, with all defaults.
-struct SocketCheckOptions {
-  double rest_time = 2.0;  ///< shortest rest before and after [s]
-  double rest_share =
-      0.25;  ///< largest reading at rest, on the way from the lowest reading to the usual load (ratio)
-  double rest_change = 0.02;      ///< change of a taxel from rest before to rest after [share of full scale]
-  double changed_share = 0.05;    ///< share of taxels that may change by more (ratio)
-  double saturated_share = 0.01;  ///< readings at full scale (ratio)
-  double beyond_share = 0.05;     ///< readings outside of training (ratio)
-  double contact_share = 0.10;    ///< a taxel is loaded from this reading on [share of full scale]
-  double static_range =
-      0.20;  ///< a load is static while its reading varies by less than this share of itself (ratio)
-  double static_load = 300;  ///< longest static load without a remark about creep [s]
-};
-
 /// A part of the recording without load, with the readings of the taxels in it.
 struct SocketRest {
   double from = 0, to = 0;       ///< [s] since the first scan
@@ -67,6 +52,6 @@ struct DonDoff {
 /// then the share of readings outside the range of training is unknown. Throws InputError if the calibration
 /// is of another matrix.
 SocketCheck checkSocket(const dataset::Recording& recording, const DonDoff& events,
-                        const calibration::Calibration* calibration, const SocketCheckOptions& options = {});
+                        const calibration::Calibration* calibration);
 
 }  // namespace fsr::check

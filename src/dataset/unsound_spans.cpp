@@ -88,7 +88,7 @@ constexpr double kRareScans = 0.02;       // share beyond each end of a range: m
 // Shares of the ranges. A sheet that follows moves by more than a quarter of what the pressure does (see
 // ReferenceSpikeOptions::follows), and a loaded sheet by more than a tenth of its range (see kLoaded).
 constexpr double kLeastPressure = 0.25, kLeastReading = 0.1;
-// A chamber cannot have less [Pa] (session::ConductorOptions::least_pressure). Asked only where a tenth of
+// A chamber cannot have less [Pa] (as the conductor of a session says). Asked only where a tenth of
 // the scans is at rest: else the ambient pressure may be wrong.
 constexpr double kLeastGauge = -30e3, kRestingScans = 0.1;
 // Three of four scans under load differ by less than the usual difference: also where one in five is faulty.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "check/check.h"
 #include "report/calibration_report.h"
 #include "report/text_table.h"
 #include "settings/number_text.h"
@@ -13,17 +14,6 @@ namespace {
 
 std::string percent(double share, int digits = 1) {
   return std::isnan(share) ? "not known" : settings::fixedText(100 * share, digits) + " %";
-}
-
-// "(row, column)" of the first eight taxels.
-std::string places(const std::vector<std::size_t>& taxels, const matrix::Layout& layout) {
-  constexpr std::size_t kListed = 8;
-  std::string list;
-  for (std::size_t i = 0; i < std::min(taxels.size(), kListed); ++i) {
-    list += (i == 0 ? "(" : ", (") + std::to_string(layout.row({taxels[i]})) + ", " +
-            std::to_string(layout.column({taxels[i]})) + ")";
-  }
-  return taxels.size() > kListed ? list + ", ..." : list;
 }
 
 std::string numbers(const std::vector<std::size_t>& values) {
@@ -48,8 +38,10 @@ std::string recordingsTable(const discrepancy::Admission& admission) {
 std::string healthText(const discrepancy::AdmittedRecording& row, const matrix::Layout& layout) {
   const health::RecordingHealth& health = row.health;
   std::vector<std::string> sentences;
-  if (!health.dead.empty()) sentences.push_back("dead (row, column): " + places(health.dead, layout));
-  if (!health.stuck.empty()) sentences.push_back("stuck (row, column): " + places(health.stuck, layout));
+  if (!health.dead.empty())
+    sentences.push_back("dead (row, column): " + check::placesText(health.dead, layout));
+  if (!health.stuck.empty())
+    sentences.push_back("stuck (row, column): " + check::placesText(health.stuck, layout));
   if (!health.rows.empty()) sentences.push_back("failed rows: " + numbers(health.rows));
   if (!health.columns.empty()) sentences.push_back("failed columns: " + numbers(health.columns));
   if (health.saturated_taxels > 0)
@@ -63,7 +55,7 @@ std::string healthText(const discrepancy::AdmittedRecording& row, const matrix::
 std::string faultText(const health::Fault& fault, const matrix::Layout& layout) {
   const bool line = fault.isLine();
   const std::string where =
-      line ? " " + std::to_string(fault.line) : " (row, column): " + places(fault.taxels, layout);
+      line ? " " + std::to_string(fault.line) : " (row, column): " + check::placesText(fault.taxels, layout);
   return discrepancy::effectOf(fault).id + where + ", " + percent(fault.share, 2) +
          " of the scans, longest " + settings::fixedText(fault.longest, 1) + " s";
 }
@@ -95,7 +87,7 @@ std::string changeOfRest(const check::SocketCheck& check) {
                                    : " (" + settings::fixedPressure(check.median_pressure_change, 1) + ")";
   return "Change of the readings at rest: median " + percent(check.median_change, 2) + " of full scale" +
          pressure + ", largest " + percent(check.change[check.worst], 2) + " at (row, column) " +
-         places({check.worst}, check.layout) + "; " + std::to_string(check.changed) +
+         check::placesText({check.worst}, check.layout) + "; " + std::to_string(check.changed) +
          (check.changed == 1 ? " taxel" : " taxels") + " beyond the limit\n";
 }
 
@@ -117,10 +109,11 @@ std::string admissionText(const discrepancy::Admission& admission) {
 std::string socketText(const check::SocketCheck& check) {
   const std::string longest = check.longest.seconds > 0
                                   ? ", from second " + settings::fixedText(check.longest.from, 0) +
-                                        ", at (row, column) " + places({check.longest.taxel}, check.layout)
+                                        ", at (row, column) " +
+                                        check::placesText({check.longest.taxel}, check.layout)
                                   : "";
   const auto listed = [&](const std::vector<std::size_t>& taxels) {
-    return taxels.empty() ? "none" : places(taxels, check.layout);
+    return taxels.empty() ? "none" : check::placesText(taxels, check.layout);
   };
   return check.name + '\n' + restText("before", check.before) + restText("after", check.after) +
          changeOfRest(check) + "At full scale: " + percent(check.saturated, 2) +

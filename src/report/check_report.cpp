@@ -29,11 +29,11 @@ void addRow(const check::CheckedReadings& row, std::size_t width, std::ostringst
   };
   out << std::left << std::setw(static_cast<int>(width)) << (row.name.empty() ? "all" : row.name)
       << std::right << std::setw(12) << row.readings;
-  cell(14, row.expected_rmse / settings::shownUnitSize());
-  cell(11, row.rmse / settings::shownUnitSize());
-  cell(11, row.bias / settings::shownUnitSize());
-  cell(14, 100 * row.within_one_deviation);
-  cell(12, 100 * row.beyond_training);
+  cell(14, row.expectedRmse() / settings::shownUnitSize());
+  cell(11, row.rmse() / settings::shownUnitSize());
+  cell(11, row.bias() / settings::shownUnitSize());
+  cell(14, 100 * row.share(row.within));
+  cell(12, 100 * row.share(row.beyond));
   out << '\n';
 }
 
@@ -175,10 +175,10 @@ std::string nextStep(const check::CheckResult& result) {
 std::string goodFor(const check::CheckResult& result) {
   const check::MapErrors& map = result.map;
   const auto worst = std::max_element(map.bags.begin(), map.bags.end(),
-                                      [](const auto& a, const auto& b) { return a.rmse < b.rmse; });
+                                      [](const auto& a, const auto& b) { return a.rmse() < b.rmse(); });
   const std::string bag = worst == map.bags.end()
                               ? ""
-                              : "; worst bag: " + worst->name + ", RMSE " + fixedPressure(worst->rmse, 1);
+                              : "; worst bag: " + worst->name + ", RMSE " + fixedPressure(worst->rmse(), 1);
   return "Good for: 68 % of the readings of these bags err by at most " +
          calibration::errorText(map.within[0], map.range) + " and 95 % by at most " +
          calibration::errorText(map.within[1], map.range) + bag + "; next: " + nextStep(result) + "\n";

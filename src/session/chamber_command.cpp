@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace fsr::session {
 
@@ -30,15 +31,17 @@ double ChamberCommand::next(const Conductor& conductor, double time) {
   return set_;
 }
 
-void ChamberCommand::rampTo(double pressure, double rate) {
-  course_.push_back({std::abs(pressure - course_.back().pressure) / rate, pressure});
-}
-
 // Null = vent.
 void ChamberCommand::plan(const SessionStep* step) {
-  course_.assign(1, {0, set_});
+  std::vector<simulation::PressurePoint> course = {{0, set_}};
+  const auto stay = [&course](double time) {
+    course.push_back({course.back().time + time, course.back().pressure});
+  };
+  const auto rampTo = [&course](double pressure, double rate) {
+    const simulation::PressurePoint& last = course.back();
+    course.push_back({last.time + std::abs(pressure - last.pressure) / rate, pressure});
+  };
   const double vent = step != nullptr && step->vent_rate > 0 ? step->vent_rate : kUnplannedVentRate;
-  const auto stay = [this](double time) { course_.push_back({time, course_.back().pressure}); };
   if (step == nullptr || step->kind == StepKind::kRest || step->kind == StepKind::kBreak) {
     rampTo(0, vent);
   } else if (step->kind == StepKind::kHold) {
@@ -53,10 +56,8 @@ void ChamberCommand::plan(const SessionStep* step) {
     rampTo(0, vent);
   }
   stay(1);
-  double time = 0;
-  for (simulation::PressurePoint& point : course_) point.time = time += point.time;
   profile_ = {};
-  profile_.append(course_);
+  profile_.append(course);
 }
 
 }  // namespace fsr::session

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <tuple>
-#include <vector>
 
 #include "session/conductor.h"
 #include "simulation/pressure_profile.h"
@@ -21,12 +20,10 @@ class ChamberCommand {
   using Key = std::tuple<std::size_t, bool, std::uint64_t>;  // step, whether it is done, attempts so far
 
   void plan(const SessionStep* step);
-  void rampTo(double pressure, double rate);
 
   Key key_{~std::size_t{0}, false, 0};
   double begin_ = 0;  // of the course [s]
   double set_ = 0;    // last answer [Pa]
-  std::vector<simulation::PressurePoint> course_;
   simulation::PressureProfile profile_;
 };
 

@@ -9,16 +9,16 @@
 #include "settings/number_text.h"
 #include "settings/sha256.h"
 #include "settings/text.h"
+#include "statistics/samples.h"
 
 namespace fsr::session {
 
 namespace {
 
-constexpr double kJump = 1;  // stamps of one topic may be out of order by this much [s]
-
-double median(double a, double b, double c) {
-  return std::max(std::min(a, b), std::min(std::max(a, b), c));
-}
+constexpr double kJump = 1;               // stamps of one topic may be out of order by this much [s]
+constexpr double kLeastPressure = -30e3;  // a gauge pressure below is no reading [Pa]
+constexpr double kLostScans = 0.05;       // share of the scans of a step that may be lost
+constexpr double kSaturated = 0.5;        // share of taxels at full scale from which it is said
 
 std::string fallenText(unsigned taxels) {
   return std::to_string(taxels) + (taxels == 1 ? " taxel" : " taxels") +
@@ -59,26 +59,22 @@ std::string digestOf(const SessionPlan& plan) {
   return settings::sha256(text.data(), text.size());
 }
 
-Conductor::Conductor(const SessionPlan& plan, const ConductorOptions& options)
-    : plan_(plan),
-      options_(options),
-      digest_(digestOf(plan)),
-      steps_(sessionSteps(plan)),
-      states_(steps_.size(), StepState::kOpen),
-      surfaces_(repeatedMounts(plan)) {
+Conductor::Conductor(const SessionPlan& plan, double silence)
+    : plan_(plan), silence_(silence), steps_(sessionSteps(plan)), surfaces_(repeatedMounts(plan)) {
+  state_.plan = plan.name;
+  state_.digest = digestOf(plan);
+  state_.steps.assign(steps_.size(), StepState::kOpen);
   restartWatch();
 }
 
-Conductor::Conductor(const SessionPlan& plan, const ConductorState& state, const ConductorOptions& options)
-    : Conductor(plan, options) {
-  if (state.digest != digest_ || state.steps.size() != steps_.size()) {
+Conductor::Conductor(const SessionPlan& plan, const ConductorState& state, double silence)
+    : Conductor(plan, silence) {
+  if (state.digest != state_.digest || state.steps.size() != steps_.size()) {
     throw settings::InputError("the session that was begun is of the plan \"" + state.plan +
                                "\", which differs from " + plan.origin +
                                "; give that plan, or another file for the state of this one");
   }
-  states_ = state.steps;
-  rejected_ = state.rejected;
-  remarks_ = state.remarks;
+  state_ = state;
   now_ = step_begin_ = state.time;
   goOn();
   resumed_ = !done() && steps_[step_].kind != StepKind::kMount && steps_[step_].kind != StepKind::kBreak;
@@ -93,7 +89,7 @@ void Conductor::pressure(double time, double gauge) {
   if (!passTime(time, last_pressure_)) return;
   if (!isValid(gauge)) return checkSilence();
   if (last_pressure_ && time <= *last_pressure_) return;
-  if (last_pressure_ && time - *last_pressure_ > options_.silence) {
+  if (last_pressure_ && time - *last_pressure_ > silence_) {
     spoil(Reason::kPressureLost,
           "no reading of the chamber pressure for " + secondsText(time - *last_pressure_));
     recent_.clear();
@@ -106,14 +102,15 @@ void Conductor::pressure(double time, double gauge) {
     recent_.push_back(reading);
     return;
   }
-  const Reading middle{recent_[1].time, median(recent_[0].pressure, recent_[1].pressure, gauge)};
+  const Reading middle{recent_[1].time,
+                       statistics::upperMedian({recent_[0].pressure, recent_[1].pressure, gauge})};
   recent_[0] = recent_[1];
   recent_[1] = reading;
   judge(middle);
 }
 
 bool Conductor::isValid(double gauge) {
-  const bool valid = std::isfinite(gauge) && gauge >= options_.least_pressure;
+  const bool valid = std::isfinite(gauge) && gauge >= kLeastPressure;
   complain(Reason::kPressureInvalid,
            "the chamber pressure reads " + (std::isfinite(gauge) ? kPaText(gauge) : "nothing") +
                ": is the transducer plugged in?",
@@ -168,7 +165,7 @@ void Conductor::take(const Reading& reading) {
 void Conductor::handle(const Verdict& verdict, const Reading& reading) {
   const Verdict full = verdict.accepted() ? withScans(verdict) : verdict;
   if (!full.accepted()) return rejectStep(full);
-  if (answers_ && isLoad()) answered_ = std::max(answered_.value_or(0), *answers_);
+  if (answers_ && steps_[step_].loads()) answered_ = std::max(answered_.value_or(0), *answers_);
   const Verdict compared = withSurface(full);
   if (!compared.accepted()) return beginMountAgain(compared);
   acceptStep(compared);
@@ -180,7 +177,7 @@ void Conductor::handle(const Verdict& verdict, const Reading& reading) {
 
 void Conductor::scan(const ScanSummary& scan) {
   if (!passTime(scan.time, last_scan_)) return;
-  if (last_scan_ && attemptRuns() && steps_[step_].recorded && scan.time - *last_scan_ > options_.silence)
+  if (last_scan_ && attemptRuns() && steps_[step_].recorded && scan.time - *last_scan_ > silence_)
     spoil(Reason::kScansLost, "no scan came for " + secondsText(scan.time - *last_scan_));
   last_scan_ = last_scan_ ? std::max(*last_scan_, scan.time) : scan.time;
   ++scans_;
@@ -193,7 +190,7 @@ void Conductor::scan(const ScanSummary& scan) {
   complain(Reason::kManySaturated,
            std::to_string(scan.saturated) + " of " + std::to_string(scan.taxels) +
                " taxels are at full scale and say only \"at least\"",
-           scan.saturated > options_.saturated * scan.taxels);
+           scan.saturated > kSaturated * scan.taxels);
 }
 
 void Conductor::surface(const std::string& name) {
@@ -256,29 +253,23 @@ bool Conductor::passTime(double time, const std::optional<double>& last) {
 }
 
 void Conductor::checkSilence() {
-  if (done() || !started_) return;
-  const StepKind kind = steps_[step_].kind;
-  const bool idle = kind == StepKind::kMount || kind == StepKind::kBreak || resumed_;
-  const double quiet = last_pressure_ ? now_ - *last_pressure_ : now_ - step_begin_;
-  if (!idle && quiet > options_.silence) {
-    const auto invalid = complaints_.find(Reason::kPressureInvalid);
-    const bool known = invalid != complaints_.end();
-    const std::string sentence =
-        known ? invalid->second : "no reading of the chamber pressure for " + secondsText(quiet);
-    if (!known) complain(Reason::kPressureLost, sentence);
-    spoil(known ? Reason::kPressureInvalid : Reason::kPressureLost, sentence);
+  if (done() || !started_ || waitsForMount() || steps_[step_].kind == StepKind::kBreak) return;
+  const double quiet = now_ - last_pressure_.value_or(step_begin_);
+  const double blind = now_ - last_scan_.value_or(step_begin_);
+  if (const auto invalid = complaints_.find(Reason::kPressureInvalid); quiet > silence_) {
+    if (invalid == complaints_.end())
+      hinder(Reason::kPressureLost, "no reading of the chamber pressure for " + secondsText(quiet));
+    else
+      spoil(invalid->first, invalid->second);
   }
-  const double blind = last_scan_ ? now_ - *last_scan_ : now_ - step_begin_;
-  if (options_.scans_expected && steps_[step_].recorded && !resumed_ && blind > options_.silence) {
-    complain(Reason::kScansLost, "no scan came for " + secondsText(blind));
-    spoil(Reason::kScansLost, "no scan came for " + secondsText(blind));
-  }
+  if (steps_[step_].recorded && blind > silence_)
+    hinder(Reason::kScansLost, "no scan came for " + secondsText(blind));
 }
 
 // During a break the chamber may be switched off.
 void Conductor::checkBreak() {
   if (done() || recovering_ || steps_[step_].kind != StepKind::kBreak) return;
-  if (last_pressure_ && now_ - *last_pressure_ <= options_.silence) return;
+  if (last_pressure_ && now_ - *last_pressure_ <= silence_) return;
   if (now_ - step_begin_ < steps_[step_].dwell_rest) return;
   Verdict verdict;
   verdict.measured.rest = now_ - step_begin_;
@@ -291,7 +282,7 @@ void Conductor::checkFit() {
            "the plan needs " + minutes(timeLeft()) + " more, but " + minutes(std::max(0.0, left)) +
                " are left; skip what matters least",
            deadline_ && started_ && !done() && timeLeft() > left);
-  const double need = recordedTimeLeft() * bytes_per_second_;
+  const double need = timeLeft(true) * bytes_per_second_;
   complain(Reason::kDiskNearlyFull,
            "the recordings that are left need " +
                settings::megabytesText(static_cast<std::uint64_t>(std::max(0.0, need))) + ", but " +
@@ -306,23 +297,15 @@ bool Conductor::isHindered() const {
          complaints_.count(Reason::kScansLost) + complaints_.count(Reason::kNotRecorded) > 0;
 }
 
-bool Conductor::isLoad() const {
-  const StepKind kind = steps_[step_].kind;
-  return kind == StepKind::kCycle || kind == StepKind::kLoop || kind == StepKind::kHold ||
-         kind == StepKind::kCondition;
-}
-
 bool Conductor::waitsForMount() const {
   return !done() && (resumed_ || steps_[step_].kind == StepKind::kMount);
 }
 
 // What the scans say about an attempt that the pressure accepts.
 Verdict Conductor::withScans(Verdict verdict) {
-  if (!isLoad()) return verdict;
+  if (!steps_[step_].loads()) return verdict;
   const auto reject = [&verdict](Reason reason, const std::string& sentence) {
-    verdict.reason = reason;
-    verdict.sentence = sentence;
-    return verdict;
+    return Verdict{reason, sentence, verdict.measured};
   };
   const unsigned fallen = dead_ - std::min(dead_, dead_known_);
   loaded_ = true;
@@ -330,12 +313,11 @@ Verdict Conductor::withScans(Verdict verdict) {
   complain(Reason::kTaxelFellOut, "", false);
   if (!steps_[step_].recorded) return verdict;
   if (fallen > 0) return reject(Reason::kTaxelFellOut, fallenText(fallen));
-  if (complaints_.count(Reason::kOtherSurface) > 0)
-    return reject(Reason::kOtherSurface, complaints_.at(Reason::kOtherSurface));
-  if (complaints_.count(Reason::kNotRecorded) > 0)
-    return reject(Reason::kNotRecorded, complaints_.at(Reason::kNotRecorded));
-  if (options_.scans_expected && scans_ == 0) return reject(Reason::kScansLost, "no scan came");
-  if (lost_ > options_.lost_scans * (scans_ + lost_)) {
+  for (const auto& [reason, sentence] : complaints_) {
+    if (reason == Reason::kOtherSurface || reason == Reason::kNotRecorded) return reject(reason, sentence);
+  }
+  if (scans_ == 0) return reject(Reason::kScansLost, "no scan came");
+  if (lost_ > kLostScans * (scans_ + lost_)) {
     return reject(Reason::kScansLost,
                   std::to_string(lost_) + " of " + std::to_string(scans_ + lost_) + " scans were lost");
   }
@@ -350,7 +332,7 @@ void Conductor::complain(Reason reason, const std::string& sentence, bool holds)
 }
 
 void Conductor::setHint() {
-  const Hint hint = watch_ && !recovering_ && !resumed_ ? watch_->hint() : Hint{};
+  const Verdict hint = watch_ && !recovering_ && !resumed_ ? watch_->hint() : Verdict{};
   for (const Reason reason : {Reason::kRestNotReached, Reason::kChamberStalled})
     complain(reason, hint.sentence, reason == hint.reason);
 }
@@ -359,13 +341,13 @@ void Conductor::setHint() {
 
 void Conductor::acceptStep(const Verdict& verdict) {
   const bool loop = steps_[step_].kind == StepKind::kLoop;
-  states_[step_] = StepState::kAccepted;
+  state_.steps[step_] = StepState::kAccepted;
   note(step_, StepState::kAccepted, verdict);
   goOn(loop);
 }
 
 void Conductor::rejectStep(const Verdict& verdict) {
-  ++rejected_;
+  ++state_.rejected;
   ++attempts_;
   last_rejected_ = verdict;
   recovering_ = true;
@@ -375,10 +357,12 @@ void Conductor::rejectStep(const Verdict& verdict) {
 // An attempt that runs is rejected at once.
 void Conductor::spoil(Reason reason, const std::string& sentence) {
   if (done() || !attemptRuns() || steps_[step_].kind == StepKind::kBreak) return;
-  Verdict verdict;
-  verdict.reason = reason;
-  verdict.sentence = sentence;
-  rejectStep(verdict);
+  rejectStep({reason, sentence, {}});
+}
+
+void Conductor::hinder(Reason reason, const std::string& sentence) {
+  complain(reason, sentence);
+  spoil(reason, sentence);
 }
 
 void Conductor::note(std::size_t step, StepState state, const Verdict& verdict) {
@@ -386,14 +370,14 @@ void Conductor::note(std::size_t step, StepState state, const Verdict& verdict) 
   outcomes_.push_back({step, state, verdict});
   if (outcomes_.size() > kMostOutcomes) outcomes_.erase(outcomes_.begin());
   if (state == StepState::kSkipped || verdict.sentence.empty()) return;
-  remarks_.push_back({step, verdict.reason, verdict.sentence});
-  if (remarks_.size() > ConductorState::kMostRemarks) remarks_.erase(remarks_.begin());
+  state_.remarks.push_back({step, verdict.reason, verdict.sentence});
+  if (state_.remarks.size() > ConductorState::kMostRemarks) state_.remarks.erase(state_.remarks.begin());
 }
 
 // Goes to the first step that is open.
 void Conductor::goOn(bool after_loop) {
-  const auto open = std::find(states_.begin(), states_.end(), StepState::kOpen);
-  step_ = static_cast<std::size_t>(open - states_.begin());
+  const auto open = std::find(state_.steps.begin(), state_.steps.end(), StepState::kOpen);
+  step_ = static_cast<std::size_t>(open - state_.steps.begin());
   attempts_ = 0;
   last_rejected_ = {};
   resumed_ = false;
@@ -414,20 +398,15 @@ std::vector<Outcome> Conductor::takeOutcomes() {
 }
 
 ConductorState Conductor::state() const {
-  return {plan_.name, digest_, states_, rejected_, now_, remarks_};
+  ConductorState state = state_;
+  state.time = now_;
+  return state;
 }
 
-double Conductor::timeLeft() const {
+double Conductor::timeLeft(bool recorded) const {
   double left = 0;
   for (std::size_t s = 0; s < steps_.size(); ++s)
-    left += states_[s] == StepState::kOpen ? steps_[s].duration : 0;
-  return left;
-}
-
-double Conductor::recordedTimeLeft() const {
-  double left = 0;
-  for (std::size_t s = 0; s < steps_.size(); ++s)
-    left += states_[s] == StepState::kOpen && steps_[s].recorded ? steps_[s].duration : 0;
+    left += state_.steps[s] == StepState::kOpen && (steps_[s].recorded || !recorded) ? steps_[s].duration : 0;
   return left;
 }
 

@@ -12,7 +12,6 @@
 #include "session/plan_steps.h"
 #include "session/sheet_watch.h"
 #include "session/step_watch.h"
-#include "session/surface_watch.h"
 
 namespace fsr::session {
 
@@ -24,15 +23,6 @@ struct Instruction : SessionStep {
   std::string text;      ///< a sentence
   std::string remark;    ///< why the last attempt was rejected, and what hinders; empty = nothing
   bool confirm = false;  ///< a person must confirm
-};
-
-/// Limits that are not in the plan.
-struct ConductorOptions {
-  double silence = 2;             ///< time without a reading, or without a scan, until it is said [s]
-  double lost_scans = 0.05;       ///< share of the scans of a step that may be lost
-  double least_pressure = -30e3;  ///< a gauge pressure below is no reading [Pa]
-  double saturated = 0.5;         ///< share of taxels at full scale from which it is said
-  bool scans_expected = true;     ///< false: the rig has no board yet, and only pressures are judged
 };
 
 /// What one scan says about the matrix.
@@ -95,11 +85,12 @@ std::string digestOf(const SessionPlan& plan);
 /// neighbours, so that a single spike spoils nothing, and is judged one reading later. Memory does not grow.
 class Conductor {
  public:
-  /// The plan must be valid. A plan without steps is done.
-  explicit Conductor(const SessionPlan& plan, const ConductorOptions& options = {});
+  /// The plan must be valid. A plan without steps is done. `silence`: time without a reading, or without a
+  /// scan, until it is said [s].
+  explicit Conductor(const SessionPlan& plan, double silence = 2);
   /// Goes on where a session stopped. Inside a mount, a person must first confirm that the sheet has stayed
   /// on the surface. Throws InputError for the state of another plan.
-  Conductor(const SessionPlan& plan, const ConductorState& state, const ConductorOptions& options = {});
+  Conductor(const SessionPlan& plan, const ConductorState& state, double silence = 2);
   ~Conductor();
   Conductor(Conductor&&) noexcept;
 
@@ -139,13 +130,12 @@ class Conductor {
   /// Whether the present step belongs into a bag, and the sheet is known to lie on its surface.
   bool recording() const { return !done() && !resumed_ && steps_[step_].recorded; }
   const std::vector<SessionStep>& steps() const { return steps_; }
-  const std::vector<StepState>& states() const { return states_; }
+  const std::vector<StepState>& states() const { return state_.steps; }
   ConductorState state() const;
   /// Changes with each step that is accepted, rejected, skipped or taken back.
   std::uint64_t revision() const { return revision_; }
-  /// Planned time of the steps that are open [s], and the recorded part of it.
-  double timeLeft() const;
-  double recordedTimeLeft() const;
+  /// Planned time of the steps that are open, or of the recorded ones among them [s].
+  double timeLeft(bool recorded = false) const;
   /// What hinders just now, most urgent first.
   const std::map<Reason, std::string>& complaints() const { return complaints_; }
 
@@ -165,6 +155,7 @@ class Conductor {
   void rejectStep(const Verdict& verdict);
   void note(std::size_t step, StepState state, const Verdict& verdict);
   void spoil(Reason reason, const std::string& sentence);
+  void hinder(Reason reason, const std::string& sentence);
   void goOn(bool after_loop = false);
   void restartWatch(bool after_loop = false);
   void skipMount();
@@ -179,7 +170,6 @@ class Conductor {
   void jumpTo(double time);
   bool attemptRuns() const { return watch_ && watch_->running() && !recovering_; }
   bool isHindered() const;
-  bool isLoad() const;
   bool isFirstLoad() const;
   void readMatrix(const ScanSummary& scan);
   void checkSheet(const ScanSummary& scan);
@@ -190,14 +180,12 @@ class Conductor {
   std::string text() const;
 
   SessionPlan plan_;
-  ConductorOptions options_;
-  std::string digest_;
+  double silence_;
   std::vector<SessionStep> steps_;
-  std::vector<StepState> states_;
+  ConductorState state_;  // its time is now_
   std::size_t step_ = 0;
   bool resumed_ = false;     // inside a mount, and nobody has confirmed that the sheet stayed
   bool recovering_ = false;  // an attempt was rejected, and the pressure is not down yet
-  unsigned rejected_ = 0;    // in all
   unsigned attempts_ = 0;    // rejected at this step
   Verdict last_rejected_;    // at this step
   std::unique_ptr<StepWatch> watch_;
@@ -233,7 +221,6 @@ class Conductor {
   std::optional<double> deadline_;
   std::map<Reason, std::string> complaints_;
   std::vector<Outcome> outcomes_;
-  std::vector<StepRemark> remarks_;
 };
 
 }  // namespace fsr::session

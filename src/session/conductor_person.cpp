@@ -21,10 +21,7 @@ std::string stepText(const SessionStep& step) {
 }
 
 Verdict byHand(const std::string& sentence) {
-  Verdict verdict;
-  verdict.reason = Reason::kByHand;
-  verdict.sentence = sentence.empty() ? "by a person" : sentence;
-  return verdict;
+  return {Reason::kByHand, sentence.empty() ? "by a person" : sentence, {}};
 }
 
 }  // namespace
@@ -66,11 +63,11 @@ Answer Conductor::reject(const std::string& reason) {
   if (resumed_) {
     const unsigned mount = steps_[step_].mount;
     for (std::size_t s = 0; s < steps_.size(); ++s) {
-      if (steps_[s].mount == mount) states_[s] = StepState::kOpen;
+      if (steps_[s].mount == mount) state_.steps[s] = StepState::kOpen;
     }
     note(step_, StepState::kOpen, byHand("the sheet has left the surface; the mount begins again"));
     outcomes_.back().mount_again = true;
-    ++rejected_;
+    ++state_.rejected;
     goOn();
     return {true, mountText(steps_[step_]) + " begins again"};
   }
@@ -79,15 +76,15 @@ Answer Conductor::reject(const std::string& reason) {
     return {true, stepText(steps_[step_]) + " is rejected"};
   }
   const bool same = step_ > 0 && steps_[step_ - 1].mount == steps_[step_].mount;
-  if (!same || states_[step_ - 1] != StepState::kAccepted)
+  if (!same || state_.steps[step_ - 1] != StepState::kAccepted)
     return {false, "nothing is to be rejected: no attempt runs, and none was accepted before on this mount"};
   const std::size_t before = step_ - 1;
-  states_[before] = StepState::kOpen;
+  state_.steps[before] = StepState::kOpen;
   goOn();
   if (steps_[before].kind == StepKind::kMount) {
     note(before, StepState::kOpen, byHand(reason));
     outcomes_.back().mount_again = true;
-    ++rejected_;
+    ++state_.rejected;
   } else {
     rejectStep(byHand(reason));
   }
@@ -99,13 +96,13 @@ Answer Conductor::skip() {
   const SessionStep step = steps_[step_];
   const std::size_t at = step_;
   const bool mount = waitsForMount();
-  const auto open = std::count(states_.begin(), states_.end(), StepState::kOpen);
+  const auto open = std::count(state_.steps.begin(), state_.steps.end(), StepState::kOpen);
   if (mount)
     skipMount();
   else
-    states_[step_] = StepState::kSkipped;
+    state_.steps[step_] = StepState::kSkipped;
   note(at, StepState::kSkipped, byHand("skipped"));
-  const auto skipped = open - std::count(states_.begin(), states_.end(), StepState::kOpen);
+  const auto skipped = open - std::count(state_.steps.begin(), state_.steps.end(), StepState::kOpen);
   goOn();
   recovering_ = !done() && watch_ && judged_ && !canBegin(steps_[step_], last_judged_.pressure);
   return {true,
@@ -117,19 +114,19 @@ Answer Conductor::skip() {
 void Conductor::skipMount() {
   const unsigned mount = steps_[step_].mount;
   for (std::size_t s = 0; s < steps_.size(); ++s) {
-    if (steps_[s].mount == mount && steps_[s].kind != StepKind::kBreak && states_[s] == StepState::kOpen)
-      states_[s] = StepState::kSkipped;
+    if (steps_[s].mount == mount && steps_[s].kind != StepKind::kBreak && state_.steps[s] == StepState::kOpen)
+      state_.steps[s] = StepState::kSkipped;
   }
 }
 
 std::string Conductor::text() const {
   if (done()) {
     const auto count = [this](StepState state) {
-      return std::to_string(std::count(states_.begin(), states_.end(), state));
+      return std::to_string(std::count(state_.steps.begin(), state_.steps.end(), state));
     };
     return "The session is over: " + count(StepState::kAccepted) + " steps accepted, " +
-           count(StepState::kSkipped) + " skipped, " + std::to_string(rejected_) +
-           (rejected_ == 1 ? " attempt rejected." : " attempts rejected.");
+           count(StepState::kSkipped) + " skipped, " + std::to_string(state_.rejected) +
+           (state_.rejected == 1 ? " attempt rejected." : " attempts rejected.");
   }
   const SessionStep& step = steps_[step_];
   if (resumed_) {

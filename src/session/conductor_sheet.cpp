@@ -20,12 +20,10 @@ constexpr double kRestShare = 0.1;
 }  // namespace
 
 bool Conductor::isFirstLoad() const {
-  if (done() || !isLoad() || !steps_[step_].recorded) return false;
-  for (std::size_t s = 0; s < step_; ++s) {
-    const SessionStep& one = steps_[s];
-    if (one.mount == steps_[step_].mount && one.recorded && one.kind != StepKind::kRest) return false;
-  }
-  return true;
+  if (done() || !steps_[step_].loads() || !steps_[step_].recorded) return false;
+  return std::none_of(steps_.data(), steps_.data() + step_, [this](const SessionStep& one) {
+    return one.mount == steps_[step_].mount && one.recorded && one.loads();
+  });
 }
 
 // A scan belongs to the pressure that was judged last, which is one reading old at most. A sheet that reads
@@ -45,7 +43,7 @@ void Conductor::readMatrix(const ScanSummary& scan) {
     const bool loaded = largest_excess_ > 0 && excess > kRestShare * largest_excess_;
     if (!loaded && !rising) rest_counts_.take(scan.counts, scan.taxels);
     if (rest_counts_.known()) noise_ = rest_counts_.noise();
-  } else if (attemptRuns() && isLoad()) {
+  } else if (attemptRuns() && steps_[step_].loads()) {
     checkSheet(scan);
     largest_excess_ = std::fmax(largest_excess_, excess);
   }
@@ -70,7 +68,7 @@ bool Conductor::isDoubted(const Reading& reading) {
   // Where the readings are rare, a ramp doubles the pressure between two of them.
   const double ramp =
       mounted ? kUsualRamps * std::max(steps_[step_].fill_rate, steps_[step_].vent_rate) * since : 0;
-  const bool jumped = judged_ && since <= options_.silence &&
+  const bool jumped = judged_ && since <= silence_ &&
                       std::abs(reading.pressure - last_judged_.pressure) > ramp &&
                       JumpWatch::isJump(last_judged_, reading);
   if (!jumps_.open() && mounted && jumped) jumps_.begin(last_judged_, reading);
@@ -93,11 +91,9 @@ void Conductor::settleJump() {
   unfollowed_ = true;
   judged_ = false;
   rest_.restart();
-  const std::string sentence = "the pressure jumped from " + kPaText(jumps_.before().pressure) + " to " +
-                               kPaText(jumps_.after().pressure) +
-                               ", and the sheet did not follow: is the transducer plugged in?";
-  complain(Reason::kPressureNotFollowed, sentence);
-  spoil(Reason::kPressureNotFollowed, sentence);
+  hinder(Reason::kPressureNotFollowed, "the pressure jumped from " + kPaText(jumps_.before().pressure) +
+                                           " to " + kPaText(jumps_.after().pressure) +
+                                           ", and the sheet did not follow: is the transducer plugged in?");
   recovering_ = watch_ != nullptr;
 }
 
@@ -162,10 +158,10 @@ void Conductor::insistOn(const SurfaceDoubt& doubt, Verdict* verdict) {
 void Conductor::beginMountAgain(const Verdict& verdict) {
   for (std::size_t s = 0; s < step_; ++s) {
     if (steps_[s].mount == steps_[step_].mount && steps_[s].kind != StepKind::kCondition &&
-        states_[s] == StepState::kAccepted)
-      states_[s] = StepState::kOpen;
+        state_.steps[s] == StepState::kAccepted)
+      state_.steps[s] = StepState::kOpen;
   }
-  ++rejected_;
+  ++state_.rejected;
   note(step_, StepState::kOpen, verdict);
   outcomes_.back().mount_again = true;
   goOn();

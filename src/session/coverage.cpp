@@ -9,57 +9,33 @@
 
 namespace fsr::session {
 
-namespace {
-
-void add(Share& share, bool accepted) {
-  ++share.planned;
-  share.accepted += accepted ? 1 : 0;
-}
-
-void addValue(std::vector<ValueCoverage>& values, double value, bool accepted) {
-  const auto same = [value](const ValueCoverage& one) { return one.value == value; };
-  auto found = std::find_if(values.begin(), values.end(), same);
-  if (found == values.end()) found = values.insert(values.end(), {value, {}});
-  add(found->steps, accepted);
-}
-
-void addPasses(SurfaceCoverage& surface, const SessionStep& step, double largest, bool accepted) {
-  for (std::size_t bin = 0; bin < Coverage::kBins; ++bin) {
-    const double middle = (static_cast<double>(bin) + 0.5) / Coverage::kBins * largest;
-    if (middle < step.low || middle > step.peak) continue;
-    add(surface.loading[bin], accepted);
-    if (step.kind != StepKind::kHold) add(surface.unloading[bin], accepted);
-  }
-}
-
-bool isLoad(const SessionStep& step) {
-  return step.kind == StepKind::kCycle || step.kind == StepKind::kLoop || step.kind == StepKind::kHold;
-}
-
-}  // namespace
-
 Coverage coverageOf(const SessionPlan& plan, const std::vector<SessionStep>& steps,
                     const std::vector<StepState>& states) {
   Coverage coverage;
   coverage.largest_peak = largestPeak(plan);
-  for (const PlannedSurface& one : plan.surfaces) {
-    coverage.surfaces.push_back({one.surface.name, bendOf(one.surface), std::vector<Share>(Coverage::kBins),
-                                 std::vector<Share>(Coverage::kBins)});
-  }
-  for (std::size_t s = 0; s < steps.size(); ++s) {
-    if (!isLoad(steps[s])) continue;
-    const bool accepted = states[s] == StepState::kAccepted;
-    for (SurfaceCoverage& surface : coverage.surfaces) {
-      if (surface.surface == steps[s].surface) addPasses(surface, steps[s], coverage.largest_peak, accepted);
-    }
-    addValue(coverage.paces, steps[s].fill_rate, accepted);
-    if (steps[s].kind != StepKind::kLoop) addValue(coverage.dwells, steps[s].dwell_peak, accepted);
-  }
-  const auto less = [](const ValueCoverage& a, const ValueCoverage& b) { return a.value < b.value; };
-  std::sort(coverage.paces.begin(), coverage.paces.end(), less);
-  std::sort(coverage.dwells.begin(), coverage.dwells.end(), less);
+  const std::vector<Share> none(Coverage::kBins);
+  for (const PlannedSurface& one : plan.surfaces)
+    coverage.surfaces.push_back({one.surface.name, bendOf(one.surface), none, none});
   std::stable_sort(coverage.surfaces.begin(), coverage.surfaces.end(),
                    [](const auto& a, const auto& b) { return a.curvature < b.curvature; });
+  for (std::size_t s = 0; s < steps.size(); ++s) {
+    const SessionStep& step = steps[s];
+    if (!step.recorded || !step.loads()) continue;
+    const auto add = [accepted = states[s] == StepState::kAccepted](Share& share) {
+      ++share.planned;
+      share.accepted += accepted ? 1 : 0;
+    };
+    for (SurfaceCoverage& surface : coverage.surfaces) {
+      for (std::size_t bin = 0; bin < Coverage::kBins && surface.surface == step.surface; ++bin) {
+        const double middle = (static_cast<double>(bin) + 0.5) / Coverage::kBins * coverage.largest_peak;
+        if (middle < step.low || middle > step.peak) continue;
+        add(surface.loading[bin]);
+        if (step.kind != StepKind::kHold) add(surface.unloading[bin]);
+      }
+    }
+    add(coverage.paces[step.fill_rate]);
+    if (step.kind != StepKind::kLoop) add(coverage.dwells[step.dwell_peak]);
+  }
   return coverage;
 }
 
@@ -127,10 +103,8 @@ class Layout {
       addCells(kRight, one.unloading, one.surface + ", unloading, ");
     }
     y_ += kMargin;
-    for (const ValueCoverage& pace : coverage.paces)
-      addBar("pace " + kilopascals(pace.value) + " kPa/s", pace.steps);
-    for (const ValueCoverage& dwell : coverage.dwells)
-      addBar("dwell " + roundedText(dwell.value, 3) + " s", dwell.steps);
+    for (const auto& [pace, steps] : coverage.paces) addBar("pace " + kilopascals(pace) + " kPa/s", steps);
+    for (const auto& [dwell, steps] : coverage.dwells) addBar("dwell " + roundedText(dwell, 3) + " s", steps);
   }
 
   int height() const { return y_ + kRow + kMargin; }

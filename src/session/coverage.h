@@ -1,7 +1,7 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -24,19 +24,13 @@ struct SurfaceCoverage {
   std::vector<Share> unloading;
 };
 
-/// A pace [Pa/s] or a dwell at the peak [s].
-struct ValueCoverage {
-  double value = 0;
-  Share steps;
-};
-
 /// What a session has recorded so far of what its plan asks for.
 struct Coverage {
   static constexpr std::size_t kBins = 10;  ///< of pressure, from 0 to the largest peak
   double largest_peak = 0;                  ///< [Pa]
   std::vector<SurfaceCoverage> surfaces;    ///< by ascending curvature
-  std::vector<ValueCoverage> paces;         ///< ascending
-  std::vector<ValueCoverage> dwells;        ///< ascending
+  std::map<double, Share> paces;            ///< steps by pace [Pa/s]
+  std::map<double, Share> dwells;           ///< steps by dwell at the peak [s]
 };
 
 /// Only recorded steps count.

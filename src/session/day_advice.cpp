@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "session/day_report.h"
-#include "session/plan_report.h"
+#include "session/plan.h"
 #include "settings/text.h"
 
 namespace fsr::session {
@@ -32,7 +32,7 @@ const std::map<std::string, std::string>& whatAssesses() {
 // A mount of which nothing was done is one sentence.
 Sentences notDone(const DayReport& day) {
   Sentences sentences;
-  const std::vector<SessionStep> steps = sessionSteps(day.plan);
+  const std::vector<SessionStep>& steps = day.steps;
   for (std::size_t first = 0, end = 0; first < steps.size(); first = end) {
     std::size_t open = 0;
     for (end = first; end < steps.size() && steps[end].mount == steps[first].mount; ++end)

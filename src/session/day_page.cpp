@@ -5,7 +5,7 @@
 #include "session/coverage.h"
 #include "session/day_report.h"
 #include "session/html_page.h"
-#include "session/plan_report.h"
+#include "session/plan.h"
 #include "session/session_files.h"
 #include "settings/number_text.h"
 #include "settings/text.h"
@@ -33,10 +33,6 @@ std::string attempts(std::size_t number) {
   return std::to_string(number) + (number == 1 ? " attempt" : " attempts") + " rejected";
 }
 
-std::string namesOf(const std::vector<std::string>& bags) {
-  return bags.empty() ? "none" : settings::joined(bags);
-}
-
 bool rejects(const StepRemark& remark) {
   return remark.reason != Reason::kNone;
 }
@@ -49,16 +45,15 @@ struct StepCount {
 template <typename Wanted>
 StepCount count(const DayReport& day, Wanted wanted) {
   StepCount counted;
-  const std::vector<SessionStep> steps = sessionSteps(day.plan);
-  for (std::size_t s = 0; s < steps.size(); ++s) {
-    if (!wanted(steps[s])) continue;
+  for (std::size_t s = 0; s < day.steps.size(); ++s) {
+    if (!wanted(day.steps[s])) continue;
     ++counted.planned;
     counted.accepted += day.state.steps[s] == StepState::kAccepted;
     counted.skipped += day.state.steps[s] == StepState::kSkipped;
     counted.open += day.state.steps[s] == StepState::kOpen;
   }
   for (const StepRemark& remark : day.state.remarks)
-    counted.rejected += rejects(remark) && wanted(steps[remark.step]);
+    counted.rejected += rejects(remark) && wanted(day.steps[remark.step]);
   return counted;
 }
 
@@ -105,12 +100,13 @@ void summary(HtmlPage& page, const DayReport& day) {
 void recorded(HtmlPage& page, const DayReport& day) {
   page.element("h2", "What was recorded");
   std::vector<Row> rows;
-  for (const SessionStep& mount : sessionSteps(day.plan)) {
+  for (const SessionStep& mount : day.steps) {
     if (mount.kind != StepKind::kMount) continue;
+    const std::vector<std::string> bags = bagsOf(day, mount.mount);
     const StepCount counted = count(day, [&](const SessionStep& step) { return step.mount == mount.mount; });
     rows.push_back({std::to_string(mount.mount), mount.surface, std::to_string(counted.accepted),
                     std::to_string(counted.skipped), std::to_string(counted.open),
-                    std::to_string(counted.rejected), namesOf(bagsOf(day, mount))});
+                    std::to_string(counted.rejected), bags.empty() ? "none" : settings::joined(bags)});
   }
   page.table(
       "Steps of each mount: number accepted, skipped, not reached; attempts rejected. Source: state of the "
@@ -128,7 +124,7 @@ void recorded(HtmlPage& page, const DayReport& day) {
     for (const Json& sentence : day.training.result["provenance"].value("conditioning", Json::array()))
       page.element("p", "The bags say: " + sentence.get<std::string>() + ".");
   }
-  page.figure(coverageSvg(coverageOf(day.plan, sessionSteps(day.plan), day.state.steps)),
+  page.figure(coverageSvg(coverageOf(day.plan, day.steps, day.state.steps)),
               "Coverage: passes of each surface through each tenth of the pressure, while loading and "
               "unloading; below, steps of each pace and dwell. Filled: accepted share of the planned ones; "
               "yellow: complete.");
@@ -140,10 +136,9 @@ void remarks(HtmlPage& page, const DayReport& day) {
     unsigned mount, times;
     const StepRemark* first;
   };
-  const std::vector<SessionStep> steps = sessionSteps(day.plan);
   std::vector<Group> groups;
   for (const StepRemark& remark : day.state.remarks) {
-    const unsigned mount = steps[remark.step].mount;
+    const unsigned mount = day.steps[remark.step].mount;
     const auto same = std::find_if(groups.begin(), groups.end(), [&](const Group& one) {
       return one.mount == mount && one.first->reason == remark.reason &&
              (rejects(remark) || one.first->sentence == remark.sentence);
@@ -158,7 +153,7 @@ void remarks(HtmlPage& page, const DayReport& day) {
                    [](const Group& a, const Group& b) { return a.mount < b.mount; });
   std::vector<Row> rows;
   for (const Group& one : groups) {
-    const SessionStep& step = steps[one.first->step];
+    const SessionStep& step = day.steps[one.first->step];
     rows.push_back({std::to_string(one.mount), step.surface, std::to_string(one.times), instruction(step),
                     (rejects(*one.first) ? "rejected (" + name(one.first->reason) + "): " : std::string()) +
                         one.first->sentence});
@@ -207,15 +202,14 @@ void next(HtmlPage& page, const DayReport& day) {
 
 void everyStep(HtmlPage& page, const DayReport& day) {
   page.element("h2", "Every step");
-  const std::vector<SessionStep> steps = sessionSteps(day.plan);
   std::vector<Row> rows;
-  for (std::size_t s = 0; s < steps.size(); ++s) {
+  for (std::size_t s = 0; s < day.steps.size(); ++s) {
+    const SessionStep& step = day.steps[s];
     const StepState state = day.state.steps[s];
     const auto rejected = static_cast<std::size_t>(
         std::count_if(day.state.remarks.begin(), day.state.remarks.end(),
                       [s](const StepRemark& remark) { return remark.step == s && rejects(remark); }));
-    rows.push_back({std::to_string(s + 1), std::to_string(steps[s].mount), steps[s].surface,
-                    instruction(steps[s]),
+    rows.push_back({std::to_string(s + 1), std::to_string(step.mount), step.surface, instruction(step),
                     std::string(state == StepState::kAccepted  ? "accepted"
                                 : state == StepState::kSkipped ? "skipped"
                                                                : "not reached") +
@@ -230,21 +224,19 @@ DayReport dayOf(const SessionPlan& plan, const ConductorState& state, const std:
   static_cast<void>(Conductor(plan, state));  // refuses the state of another plan
   DayReport day;
   day.plan = plan;
+  day.steps = sessionSteps(plan);
   day.state = state;
   day.folder = std::filesystem::absolute(folder).lexically_normal().string();
-  day.calibration = calibrationFileName(plan.name);
+  day.calibration = sessionFile(plan.name, kCalibrationFile);
   return day;
 }
 
-std::vector<std::string> bagsOf(const DayReport& day, const SessionStep& mount) {
-  return bagsOfMount(day.folder, bagStem(day.plan.name, mount.mount, mount.surface));
-}
-
-std::vector<std::string> bagsOf(const DayReport& day) {
+std::vector<std::string> bagsOf(const DayReport& day, unsigned mount) {
   std::vector<std::string> bags;
-  for (const SessionStep& step : sessionSteps(day.plan)) {
-    if (step.kind != StepKind::kMount) continue;
-    for (const std::string& bag : bagsOf(day, step)) bags.push_back(bag);
+  for (const SessionStep& step : day.steps) {
+    if (step.kind != StepKind::kMount || (mount > 0 && step.mount != mount)) continue;
+    for (const std::string& bag : bagsOfMount(day.folder, bagStem(day.plan.name, step.mount, step.surface)))
+      bags.push_back(bag);
   }
   return bags;
 }

@@ -23,6 +23,7 @@ struct DayPart {
 
 struct DayReport {
   SessionPlan plan;
+  std::vector<SessionStep> steps;  ///< of the plan
   ConductorState state;
   std::string folder;                   ///< of the session, full path
   std::vector<std::string> closed_now;  ///< sentences on bags that the session had left open
@@ -34,9 +35,8 @@ struct DayReport {
 /// A report without the parts of the tools. Throws InputError where the state belongs to another plan.
 DayReport dayOf(const SessionPlan& plan, const ConductorState& state, const std::string& folder);
 
-/// File names of the bags of a mount, and of all mounts, in their order.
-std::vector<std::string> bagsOf(const DayReport& day, const SessionStep& mount);
-std::vector<std::string> bagsOf(const DayReport& day);
+/// File names of the bags of one mount in their order; 0 = of all.
+std::vector<std::string> bagsOf(const DayReport& day, unsigned mount = 0);
 
 /// What to record, each with its reason, and who says so. What matters most comes first.
 struct Advice {

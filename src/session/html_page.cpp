@@ -1,6 +1,8 @@
 #include "session/html_page.h"
 
+#include <boost/algorithm/string/replace.hpp>
 #include <cctype>
+#include <utility>
 
 #include "settings/text.h"
 
@@ -35,21 +37,10 @@ bool isNumber(const std::string& cell) {
 }  // namespace
 
 std::string escaped(const std::string& text) {
-  std::string html;
-  for (const char one : settings::printable(text)) {
-    if (one == '&')
-      html += "&amp;";
-    else if (one == '<')
-      html += "&lt;";
-    else if (one == '>')
-      html += "&gt;";
-    else if (one == '"')
-      html += "&quot;";
-    else if (one == '\'')
-      html += "&#39;";
-    else
-      html += one;
-  }
+  constexpr std::pair<const char*, const char*> kEntities[] = {
+      {"&", "&amp;"}, {"<", "&lt;"}, {">", "&gt;"}, {"\"", "&quot;"}, {"'", "&#39;"}};
+  std::string html = settings::printable(text);
+  for (const auto& [character, entity] : kEntities) boost::replace_all(html, character, entity);
   return html;
 }
 

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <set>
 #include <stdexcept>
+#include <utility>
 #include <variant>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "session/plan_steps.h"
 #include "settings/text.h"
 #include "simulation/pressure_profile.h"
 
@@ -16,25 +19,18 @@ namespace {
 
 using settings::numberText;
 
-constexpr std::pair<Purpose, const char*> kNames[] = {{Purpose::kPerCurvature, "per_curvature"},
-                                                      {Purpose::kHistory, "history"},
-                                                      {Purpose::kDiscrepancy, "discrepancy"},
-                                                      {Purpose::kFieldCheck, "field_check"}};
+constexpr const char* kNames[] = {"per_curvature", "history", "discrepancy", "field_check"};
 
-/// Called by std::visit.
-struct Highest {
-  double operator()(const simulation::ChamberProtocol& part) const { return part.peak; }
-  double operator()(const simulation::HoldPart& part) const { return part.pressure; }
-  double operator()(const simulation::LoopsPart& part) const { return part.high; }
-  double operator()(const simulation::RestPart&) const { return 0; }
-};
-
-/// How many cycles or loops a part has. Called by std::visit.
-struct Pieces {
-  double operator()(const simulation::ChamberProtocol& part) const { return part.cycles; }
-  double operator()(const simulation::HoldPart&) const { return 1; }
-  double operator()(const simulation::LoopsPart& part) const { return part.loops; }
-  double operator()(const simulation::RestPart&) const { return 1; }
+/// Largest pressure of a part [Pa], and how many cycles or loops it has. Called by std::visit.
+struct Extent {
+  std::pair<double, double> operator()(const simulation::ChamberProtocol& part) const {
+    return {part.peak, part.cycles};
+  }
+  std::pair<double, double> operator()(const simulation::HoldPart& part) const { return {part.pressure, 1}; }
+  std::pair<double, double> operator()(const simulation::LoopsPart& part) const {
+    return {part.high, part.loops};
+  }
+  std::pair<double, double> operator()(const simulation::RestPart&) const { return {0, 1}; }
 };
 
 // What a person at a rig can do. Also bounds the memory that a plan takes.
@@ -75,28 +71,18 @@ void requireProgram(const SessionPlan& plan) {
     refuse(plan, "program never ends; give cycles of 1 or more");
 }
 
-// Time on all mounts, without conditioning [s].
-double lengthOf(const SessionPlan& plan) {
-  const double each =
-      plan.change + plan.rest.before + plan.rest.after + simulation::pressureProfile(plan.program).duration();
-  double length = static_cast<double>(mountsOf(plan)) * each;
-  for (const Break& one : plan.breaks) length += one.duration;
-  return length;
-}
-
 void requireDoable(const SessionPlan& plan) {
   double pieces = 0;
-  for (const simulation::ProgramPart& part : plan.program) pieces += std::visit(Pieces{}, part);
+  for (const simulation::ProgramPart& part : plan.program) pieces += std::visit(Extent{}, part).second;
   pieces *= static_cast<double>(mountsOf(plan));
   if (pieces > kMostPieces) {
     refuse(plan, "the session has " + numberText(pieces) +
                      " cycles, loops and holds on all mounts, but may have at most " +
                      numberText(kMostPieces));
   }
-  if (lengthOf(plan) > kLongest) {
-    refuse(plan, "the session takes " + numberText(std::round(lengthOf(plan) / 3600)) +
-                     " h, but may take at most " + numberText(kLongest / 3600) +
-                     " h; make a plan for each week");
+  if (const double length = sessionDuration(plan); length > kLongest) {
+    refuse(plan, "the session takes " + numberText(std::round(length / 3600)) + " h, but may take at most " +
+                     numberText(kLongest / 3600) + " h; make a plan for each week");
   }
 }
 
@@ -118,23 +104,17 @@ void requireBreaks(const SessionPlan& plan) {
 }  // namespace
 
 std::string name(Purpose purpose) {
-  for (const auto& [one, text] : kNames) {
-    if (one == purpose) return text;
-  }
-  throw std::out_of_range("purpose");
+  return kNames[static_cast<std::size_t>(purpose)];
 }
 
 std::vector<std::string> purposeNames() {
-  std::vector<std::string> names;
-  for (const auto& entry : kNames) names.emplace_back(entry.second);
-  return names;
+  return {std::begin(kNames), std::end(kNames)};
 }
 
 Purpose purposeCalled(const std::string& name) {
-  for (const auto& [purpose, text] : kNames) {
-    if (text == name) return purpose;
-  }
-  throw std::out_of_range(name);
+  const auto found = std::find(std::begin(kNames), std::end(kNames), name);
+  if (found == std::end(kNames)) throw std::out_of_range(name);
+  return static_cast<Purpose>(found - std::begin(kNames));
 }
 
 double bendOf(const matrix::Surface& surface) {
@@ -148,7 +128,8 @@ double bendOf(const matrix::Surface& surface) {
 
 double largestPeak(const SessionPlan& plan) {
   double peak = 0;
-  for (const simulation::ProgramPart& part : plan.program) peak = std::max(peak, std::visit(Highest{}, part));
+  for (const simulation::ProgramPart& part : plan.program)
+    peak = std::max(peak, std::visit(Extent{}, part).first);
   return peak;
 }
 

@@ -1,4 +1,4 @@
-#include "session/plan_file.h"
+#include "session/plan.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -118,9 +118,7 @@ std::string cylinderText(const matrix::Curvature& c) {
 }
 
 std::string listText(const std::vector<matrix::Curvature>& all, double matrix::Curvature::*part) {
-  std::string text;
-  for (const matrix::Curvature& one : all) text += (text.empty() ? "" : ", ") + numberText(one.*part);
-  return "[" + text + "]";
+  return "[" + settings::joinedTexts(all, [part](const auto& one) { return numberText(one.*part); }) + "]";
 }
 
 // Of a surface with one curvature for all taxels.
@@ -133,9 +131,8 @@ std::string formText(const matrix::Curvature& c) {
 
 std::string formText(const matrix::Surface& surface) {
   const auto& all = surface.curvature;
-  std::string each, deviation;
-  for (const double one : surface.deviation) each += (each.empty() ? "" : ", ") + numberText(one);
-  if (surface.deviation.size() == 1) deviation = ", deviation: " + each;
+  const std::string each = settings::joinedTexts(surface.deviation, numberText);
+  const std::string deviation = surface.deviation.size() == 1 ? ", deviation: " + each : "";
   if (all.size() == 1) return formText(all.front()) + deviation;
   return "taxels: {x: " + listText(all, &matrix::Curvature::x) +
          ", y: " + listText(all, &matrix::Curvature::y) + ", xy: " + listText(all, &matrix::Curvature::xy) +

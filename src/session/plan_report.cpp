@@ -1,11 +1,10 @@
-#include "session/plan_report.h"
+#include "session/plan.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
 #include <tuple>
-#include <variant>
 
 #include "calibration/stages/memory/history_fit.h"
 #include "calibration/stages/session/tare.h"
@@ -45,37 +44,20 @@ struct Contents {
   bool long_break = false, dwells = false;
 };
 
-/// Adds the parts of the program. Called by std::visit.
-struct AddPart {
-  Contents& contents;
-  std::set<std::tuple<double, double, double>>& driven;
-
-  void operator()(const simulation::ChamberProtocol& part) const {
-    add(part.cycles, part.fill_rate, part.peak, part.dwell_peak);
-    contents.dwells |= part.dwell_peak > kDwelling * simulation::cycleDuration(part);
-  }
-  void operator()(const simulation::HoldPart& part) const {
-    add(1, part.rate, part.pressure, part.duration);
-    contents.dwells = true;
-  }
-  void operator()(const simulation::LoopsPart& part) const { add(part.loops, part.rate, part.high, 0); }
-  void operator()(const simulation::RestPart& part) const {
-    contents.longest_hold = std::max(contents.longest_hold, part.duration);
-  }
-  void add(double pieces, double rate, double peak, double dwell) const {
-    driven.insert({rate, peak, dwell});
-    contents.cycles += pieces;
-    contents.slowest = std::min(contents.slowest, rate);
-    contents.fastest = std::max(contents.fastest, rate);
-    contents.longest_hold = std::max(contents.longest_hold, dwell);
-  }
-};
-
 Contents contentsOf(const SessionPlan& plan) {
   Contents contents;
-  contents.longest_hold = std::max(plan.rest.before, plan.rest.after);
   std::set<std::tuple<double, double, double>> driven;
-  for (const simulation::ProgramPart& part : plan.program) std::visit(AddPart{contents, driven}, part);
+  for (const SessionStep& step : sessionSteps(plan)) {
+    if (step.mount > 1 || !step.recorded) continue;
+    contents.longest_hold =
+        std::max({contents.longest_hold, step.dwell_peak, step.loads() ? 0 : step.dwell_rest});
+    if (!step.loads()) continue;
+    driven.insert({step.fill_rate, step.peak, step.dwell_peak});
+    contents.cycles += 1;
+    contents.slowest = std::min(contents.slowest, step.fill_rate);
+    contents.fastest = std::max(contents.fastest, step.fill_rate);
+    contents.dwells |= step.kind == StepKind::kHold || step.dwell_peak > kDwelling * step.duration;
+  }
   contents.protocols = static_cast<double>(driven.size());
   std::vector<unsigned> visits;
   for (const PlannedSurface& one : plan.surfaces) {
@@ -224,20 +206,18 @@ std::string conditioningText(const SessionPlan& plan) {
 }
 
 Sentences needs(const SessionPlan& plan) {
-  Sentences surfaces, order, parts;
-  for (const PlannedSurface& one : plan.surfaces) surfaces.push_back(one.surface.name);
-  for (const PlannedMount& mount : mountOrder(plan))
-    order.push_back(plan.surfaces[mount.surface].surface.name);
-  for (const simulation::ProgramPart& part : plan.program) parts.push_back(simulation::programText(part));
+  const auto name = [](const PlannedSurface& one) { return one.surface.name; };
+  const auto on = [&](const PlannedMount& mount) { return name(plan.surfaces[mount.surface]); };
   const bool conditioned = plan.conditioning.cycles > 0;
   Sentences sentences = {
-      "Surfaces: " + settings::joined(surfaces) + ".",
+      "Surfaces: " + settings::joinedTexts(plan.surfaces, name) + ".",
       "Chamber: up to " +
           settings::roundedPressure(conditioned ? conditioningPeak(plan) : largestPeak(plan), 4) + ".",
       plan.thermometer ? "A thermometer (topic temperature)." : "No thermometer.",
       conditioningText(plan),
-      "Order: " + settings::joined(order) + ".",
-      "On each mount, " + timeText(recordingDuration(plan)) + ": " + settings::joined(parts) + ". Rest of " +
+      "Order: " + settings::joinedTexts(mountOrder(plan), on) + ".",
+      "On each mount, " + timeText(recordingDuration(plan)) + ": " +
+          settings::joinedTexts(plan.program, simulation::programText) + ". Rest of " +
           roundedText(plan.rest.before) + " s before and " + roundedText(plan.rest.after) + " s after."};
   for (const Break& one : plan.breaks)
     sentences.push_back("Break of " + timeText(one.duration) + " behind mount " + std::to_string(one.after) +

@@ -92,7 +92,6 @@ class MountSteps {
     step.kind = kind;
     step.mount = mount_.number;
     step.surface = plan_.surfaces[mount_.surface].surface.name;
-    step.visit = mount_.visit;
     step.recorded = recorded;
     step.begin = steps_.empty() ? 0 : steps_.back().begin + steps_.back().duration;
     step.duration = duration;
@@ -183,9 +182,7 @@ std::vector<PlannedMount> mountOrder(const SessionPlan& plan) {
     order.push_back(order.front());
   }
   std::vector<PlannedMount> mounts;
-  std::vector<unsigned> visits(plan.surfaces.size(), 0);
-  for (const std::size_t s : order)
-    mounts.push_back({static_cast<unsigned>(mounts.size() + 1), s, ++visits[s]});
+  for (const std::size_t s : order) mounts.push_back({static_cast<unsigned>(mounts.size() + 1), s});
   return mounts;
 }
 

@@ -12,7 +12,6 @@ namespace fsr::session {
 struct PlannedMount {
   unsigned number = 1;      ///< label of the mount and number of the bag, from 1
   std::size_t surface = 0;  ///< index into SessionPlan::surfaces
-  unsigned visit = 1;       ///< how often the sheet has been on this surface, this time included
 };
 
 /// The mounts in their order. They come in rounds: each surface once, then those with a further mount once
@@ -42,7 +41,6 @@ struct SessionStep {
   StepKind kind = StepKind::kMount;
   unsigned mount = 1;      ///< label of the mount
   std::string surface;     ///< its name
-  unsigned visit = 1;      ///< see PlannedMount
   bool recorded = false;   ///< whether it belongs into the bag of the mount
   double begin = 0;        ///< since the begin of the session [s]
   double duration = 0;     ///< from the end of the step before it [s]
@@ -57,6 +55,12 @@ struct SessionStep {
   double peak_error = 0;   ///< tolerated difference of the peak [Pa]
   double rate_error = 0;   ///< likewise of the rates, share
   double dwell_error = 0;  ///< likewise of the dwells [s]
+
+  /// Whether the chamber is filled.
+  bool loads() const {
+    return kind == StepKind::kCondition || kind == StepKind::kCycle || kind == StepKind::kLoop ||
+           kind == StepKind::kHold;
+  }
 };
 
 /// All steps of the session in their order, without gaps. The plan must be valid, see validate().

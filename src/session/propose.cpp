@@ -1,4 +1,4 @@
-#include "session/propose.h"
+#include "session/plan.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,7 +29,6 @@ struct Size {
 
 /// How a plan for a purpose looks: the whole one first, then what less time leaves of it.
 struct PurposeTable {
-  Purpose purpose;
   unsigned conditioning;                         // cycles
   std::vector<simulation::ProgramPart> program;  // the hold comes behind it
   std::vector<Size> sizes;
@@ -41,8 +40,8 @@ const PurposeTable& tableFor(Purpose purpose) {
       ChamberProtocol{kFullPeak, 40e3, 40e3, 1, 1, 3}, ChamberProtocol{kFullPeak, 40e3, 40e3, 10, 10, 2},
       simulation::LoopsPart{200e3, 400e3, 17e3, 2}, simulation::RestPart{17e3, 10},
       ChamberProtocol{kFullPeak, 8e3, 8e3, 10, 10, 1}};
-  static const std::vector<PurposeTable> table = {
-      {Purpose::kPerCurvature,
+  static const PurposeTable table[] = {
+      {// kPerCurvature
        5,
        {ChamberProtocol{kFullPeak, 17e3, 17e3, 1, 1, 10}},
        {{kAll, 2, 1, 0, false, true},
@@ -51,7 +50,7 @@ const PurposeTable& tableFor(Purpose purpose) {
         {2, 1, 0.5, 0, false, true},
         {1, 1, 0.3, 0, false, false},
         {1, 1, 0, 0, false, false}}},
-      {Purpose::kHistory,
+      {// kHistory
        5,
        varied,
        {{3, 1, 1, 300, false, true},
@@ -60,7 +59,7 @@ const PurposeTable& tableFor(Purpose purpose) {
         {1, 1, 0.3, 60, false, false},
         {1, 1, 0.3, 0, false, false},
         {1, 1, 0, 0, false, false}}},
-      {Purpose::kDiscrepancy,
+      {// kDiscrepancy
        5,
        varied,
        {{kAll, 2, 1, 300, true, true},
@@ -71,15 +70,14 @@ const PurposeTable& tableFor(Purpose purpose) {
         {2, 1, 0.3, 0, false, true},
         {1, 1, 0.3, 0, false, false},
         {1, 1, 0, 0, false, false}}},
-      {Purpose::kFieldCheck,
+      {// kFieldCheck
        4,
        {ChamberProtocol{kFullPeak / 2, 17e3, 17e3, 1, 1, 2}, ChamberProtocol{kFullPeak, 17e3, 17e3, 1, 1, 3}},
        {{1, 1, 1, 0, false, true},
         {1, 1, 0.5, 0, false, true},
         {1, 1, 0.5, 0, false, false},
         {1, 1, 0, 0, false, false}}}};
-  return *std::find_if(table.begin(), table.end(),
-                       [purpose](const PurposeTable& one) { return one.purpose == purpose; });
+  return table[static_cast<std::size_t>(purpose)];
 }
 
 // Three significant digits, so that the file can be read.

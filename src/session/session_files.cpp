@@ -12,7 +12,7 @@
 #include <iterator>
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "session/plan_file.h"
+#include "session/plan.h"
 #include "settings/replace_file.h"
 #include "settings/settings.h"
 #include "settings/sha256.h"
@@ -25,7 +25,7 @@ using boost::ends_with;
 
 namespace {
 
-constexpr char kState[] = "_session.yaml", kPart[] = "_part", kBag[] = ".bag";
+constexpr char kPart[] = "_part", kBag[] = ".bag";
 constexpr char kOpen[] = ".active";        // behind the name of a bag that is being written
 constexpr char kSetAside[] = "set_aside";  // folder of bags that do not count
 
@@ -75,24 +75,8 @@ unsigned long partOf(const std::string& file, const std::string& stem) {
 
 }  // namespace
 
-std::string stateFileName(const std::string& plan) {
-  return plainName(plan) + kState;
-}
-
-std::string planFileName(const std::string& plan) {
-  return plainName(plan) + "_plan.yaml";
-}
-
-std::string reportFileName(const std::string& plan) {
-  return plainName(plan) + "_report.html";
-}
-
-std::string calibrationFileName(const std::string& plan) {
-  return plainName(plan) + "_calibration.h5";
-}
-
-std::string resultsFolderName(const std::string& plan) {
-  return plainName(plan) + "_report";
+std::string sessionFile(const std::string& plan, const char* ending) {
+  return plainName(plan) + ending;
 }
 
 std::string bagStem(const std::string& plan, unsigned mount, const std::string& surface) {
@@ -135,12 +119,13 @@ std::vector<MovedBag> setMountAside(const std::string& folder, const std::string
 std::string stateFileIn(const std::string& folder, const std::string& plan) {
   if (!fs::is_directory(folder)) throw settings::InputError(folder + ": there is no such folder");
   const auto found = filesIn(folder, [&](const std::string& file) {
-    return plan.empty() ? ends_with(file, kState) : file == stateFileName(plan);
+    return plan.empty() ? ends_with(file, kStateFile) : file == sessionFile(plan, kStateFile);
   });
   if (found.empty()) {
-    throw settings::InputError(folder + ": has no " +
-                               (plan.empty() ? "*" + std::string(kState) : stateFileName(plan)) +
-                               ", which session.launch writes; give the folder of a conducted session");
+    throw settings::InputError(
+        folder + ": has no " +
+        (plan.empty() ? "*" + std::string(kStateFile) : sessionFile(plan, kStateFile)) +
+        ", which session.launch writes; give the folder of a conducted session");
   }
   if (found.size() > 1) {
     throw settings::InputError(folder + ": has the sessions " + found[0] + " and " + found[1] +
@@ -220,8 +205,8 @@ ConductorState readState(const std::string& path) {
   const settings::Settings settings = settings::Settings::fromFile(path);
   ConductorState state;
   state.plan = settings.text("plan");
-  state.digest = digestOfContent(settings.text("digest"),
-                                 std::filesystem::path(path).parent_path() / planFileName(state.plan));
+  state.digest = digestOfContent(settings.text("digest"), std::filesystem::path(path).parent_path() /
+                                                              sessionFile(state.plan, kPlanFile));
   state.time = settings.number("time", {0, 1e12, "s"});
   state.rejected = static_cast<unsigned>(settings.integer("rejected", {0, 1e9, "attempts"}));
   for (const char one : settings.text("steps")) {

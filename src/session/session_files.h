@@ -11,16 +11,14 @@ namespace fsr::session {
 /// Names of the files in the folder of a session. They begin with the plan's name; whatever is not a letter,
 /// a digit, - or _ becomes _.
 
-/// "day_session.yaml": the state, see writeState().
-std::string stateFileName(const std::string& plan);
-/// "day_plan.yaml": the plan with the forms of its surfaces.
-std::string planFileName(const std::string& plan);
-/// "day_report.html".
-std::string reportFileName(const std::string& plan);
-/// "day_calibration.h5".
-std::string calibrationFileName(const std::string& plan);
-/// "day_report": a folder with what the tools wrote for the report.
-std::string resultsFolderName(const std::string& plan);
+constexpr char kStateFile[] = "_session.yaml";          ///< the state, see writeState()
+constexpr char kPlanFile[] = "_plan.yaml";              ///< the plan with the forms of its surfaces
+constexpr char kReportFile[] = "_report.html";          ///< of the day
+constexpr char kCalibrationFile[] = "_calibration.h5";  ///< likewise
+constexpr char kResultsFolder[] = "_report";            ///< what the tools wrote for the report
+
+/// "day_plan.yaml" for the plan `day` and kPlanFile.
+std::string sessionFile(const std::string& plan, const char* ending);
 
 /// "day_02_cylinder_5cm": without part and ending.
 std::string bagStem(const std::string& plan, unsigned mount, const std::string& surface);

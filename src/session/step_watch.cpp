@@ -37,85 +37,80 @@ std::string rateText(double rate) {
   return settings::roundedText(rate / 1e3, 3) + " kPa/s";
 }
 
+std::string plannedText(const std::string& planned) {
+  return ", planned are " + planned;
+}
+
 // What is wrong with a rate; kNone = nothing.
-Hint judgeRate(const SessionStep& step, double rate, bool filling) {
+Verdict judgeRate(const SessionStep& step, double rate, bool filling) {
   const double planned = filling ? step.fill_rate : step.vent_rate;
   const bool fast = rate > planned * (1 + step.rate_error), slow = rate < planned * (1 - step.rate_error);
   if (!fast && !slow) return {};
   const std::string sentence = std::string(filling ? "filled" : "vented") + " too " +
-                               (fast ? "fast" : "slowly") + ": " + rateText(rate) + ", planned are " +
-                               rateText(planned);
-  if (filling) return {fast ? Reason::kFillTooFast : Reason::kFillTooSlow, sentence};
-  return {fast ? Reason::kVentTooFast : Reason::kVentTooSlow, sentence};
+                               (fast ? "fast" : "slowly") + ": " + rateText(rate) +
+                               plannedText(rateText(planned));
+  if (filling) return {fast ? Reason::kFillTooFast : Reason::kFillTooSlow, sentence, {}};
+  return {fast ? Reason::kVentTooFast : Reason::kVentTooSlow, sentence, {}};
+}
+
+Verdict notVented(double pressure, const std::string& base) {
+  return {
+      Reason::kRestNotReached,
+      "the pressure stays at " + kPaText(pressure) + " and does not go down to " + base + "; open the vent",
+      {}};
 }
 
 // Times at which a rise from `low` to `peak`, and the fall behind it, cross 10 % and 90 % of the way,
 // interpolated between readings. The paces are the mean ones between these two levels.
 class LevelCrossings {
  public:
-  LevelCrossings(double low, double peak);
+  LevelCrossings(double low, double peak)
+      : low_level_(low + kLow * (peak - low)), high_level_(low + kHigh * (peak - low)) {}
 
-  void take(const Reading& reading);
+  void take(const Reading& now) {
+    if (last_) {
+      const auto rises = [&](double level) { return last_->pressure < level && now.pressure >= level; };
+      const auto falls = [&](double level) { return last_->pressure >= level && now.pressure < level; };
+      if (rises(low_level_) && !up_high_) up_low_ = crossing(*last_, now, low_level_);
+      if (rises(high_level_) && !up_high_) up_high_ = crossing(*last_, now, high_level_);
+      if (falls(high_level_)) down_high_ = crossing(*last_, now, high_level_);
+      if (falls(low_level_) && down_high_ && !down_low_) down_low_ = crossing(*last_, now, low_level_);
+    }
+    if (!last_ || now.pressure > highest_ + 0.01 * (high_level_ - low_level_)) {
+      highest_ = now.pressure;
+      risen_ = now.time;
+    }
+    last_ = now;
+  }
 
   double lowLevel() const { return low_level_; }    // 10 % [Pa]
   double highLevel() const { return high_level_; }  // 90 % [Pa]
-  // Pace of the rise, once it has crossed 90 % [Pa/s].
-  std::optional<double> fillRate() const;
-  // Pace of the fall, once it has crossed 10 % [Pa/s].
-  std::optional<double> ventRate() const;
+  // Pace of the rise, once it has crossed 90 %, and of the fall, once it has crossed 10 % [Pa/s].
+  std::optional<double> fillRate() const { return pace(up_low_, up_high_); }
+  std::optional<double> ventRate() const { return pace(down_high_, down_low_); }
   // Time from crossing 90 % upwards to crossing it downwards, or to the last reading [s].
-  double timeAbove() const;
+  double timeAbove() const { return up_high_ ? down_high_.value_or(last_->time) - *up_high_ : 0; }
   // "The chamber stays at ...", where the pressure has not risen for a while below 90 %.
-  Hint stalledHint(double peak) const;
+  Verdict stalled(double peak) const {
+    if (!last_ || up_high_ || last_->time - risen_ < kStalled) return {};
+    return {Reason::kChamberStalled,
+            "the pressure stays at " + kPaText(last_->pressure) + " and does not rise to " + kPaText(peak) +
+                "; check supply and valves, or skip this step",
+            {}};
+  }
 
  private:
+  std::optional<double> pace(const std::optional<double>& from, const std::optional<double>& to) const {
+    if (!from || !to || !(*to > *from)) return std::nullopt;
+    return (high_level_ - low_level_) / (*to - *from);
+  }
+
   const double low_level_, high_level_;
   std::optional<Reading> last_;
   std::optional<double> up_low_, up_high_, down_high_, down_low_;  // [s]
   double highest_ = 0;  // when it had risen by 1 % of the way last: pressure [Pa]
   double risen_ = 0;    // and time [s]
 };
-
-LevelCrossings::LevelCrossings(double low, double peak)
-    : low_level_(low + kLow * (peak - low)), high_level_(low + kHigh * (peak - low)) {}
-
-void LevelCrossings::take(const Reading& now) {
-  if (last_) {
-    const auto rises = [&](double level) { return last_->pressure < level && now.pressure >= level; };
-    const auto falls = [&](double level) { return last_->pressure >= level && now.pressure < level; };
-    if (rises(low_level_) && !up_high_) up_low_ = crossing(*last_, now, low_level_);
-    if (rises(high_level_) && !up_high_) up_high_ = crossing(*last_, now, high_level_);
-    if (falls(high_level_)) down_high_ = crossing(*last_, now, high_level_);
-    if (falls(low_level_) && down_high_ && !down_low_) down_low_ = crossing(*last_, now, low_level_);
-  }
-  if (!last_ || now.pressure > highest_ + 0.01 * (high_level_ - low_level_)) {
-    highest_ = now.pressure;
-    risen_ = now.time;
-  }
-  last_ = now;
-}
-
-std::optional<double> LevelCrossings::fillRate() const {
-  if (!up_low_ || !up_high_ || !(*up_high_ > *up_low_)) return std::nullopt;
-  return (high_level_ - low_level_) / (*up_high_ - *up_low_);
-}
-
-std::optional<double> LevelCrossings::ventRate() const {
-  if (!down_low_ || !(*down_low_ > *down_high_)) return std::nullopt;
-  return (high_level_ - low_level_) / (*down_low_ - *down_high_);
-}
-
-double LevelCrossings::timeAbove() const {
-  if (!up_high_) return 0;
-  return (down_high_ ? *down_high_ : last_->time) - *up_high_;
-}
-
-Hint LevelCrossings::stalledHint(double peak) const {
-  if (!last_ || up_high_ || last_->time - risen_ < kStalled) return {};
-  return {Reason::kChamberStalled, "the pressure stays at " + kPaText(last_->pressure) +
-                                       " and does not rise to " + kPaText(peak) +
-                                       "; check supply and valves, or skip this step"};
-}
 
 constexpr double kRestPatience = 30;  // beyond the planned time of venting, until a complaint [s]
 
@@ -131,29 +126,23 @@ class RestWatch : public StepWatch {
       if (length_ >= step_.dwell_rest) return verdict();
     } else if (rested_) {
       if (length_ >= step_.dwell_rest - step_.dwell_error) return verdict();
-      return disturbed();
+      return verdict(Reason::kRestDisturbed, "a load of " + kPaText(now_.pressure) + " came after " +
+                                                 secondsText(length_) + " without load" +
+                                                 plannedText(secondsText(step_.dwell_rest)));
     }
     return std::nullopt;
   }
   bool running() const override { return rested_; }
-  Hint hint() const override {
+  Verdict hint() const override {
     const double venting = std::max(0.0, step_.duration - step_.dwell_rest);
     if (rested_ || now_.pressure <= kRestLevel || now_.time - begin_ < venting + kRestPatience) return {};
-    return {Reason::kRestNotReached, "the pressure stays at " + kPaText(now_.pressure) +
-                                         " and does not go down to rest; open the vent"};
+    return notVented(now_.pressure, "rest");
   }
 
  private:
-  Verdict verdict() const {
-    Verdict verdict;
+  Verdict verdict(Reason reason = Reason::kNone, const std::string& sentence = "") const {
+    Verdict verdict{reason, sentence, {}};
     verdict.measured.rest = length_;
-    return verdict;
-  }
-  Verdict disturbed() const {
-    Verdict verdict = RestWatch::verdict();
-    verdict.reason = Reason::kRestDisturbed;
-    verdict.sentence = "a load of " + kPaText(now_.pressure) + " came after " + secondsText(length_) +
-                       " without load, planned are " + secondsText(step_.dwell_rest);
     return verdict;
   }
 
@@ -164,15 +153,43 @@ class RestWatch : public StepWatch {
   double length_ = 0;  // of the rest [s]
 };
 
+// What holds, cycles and loops have in common: they rise to a peak.
+class PeakWatch : public StepWatch {
+ protected:
+  PeakWatch(const SessionStep& step, double base)
+      : step_(step), tolerance_(std::max(step.peak_error, kRestLevel)), crossings_(base, step.peak) {}
+
+  // kNone accepts.
+  std::optional<Verdict> reject(Reason reason, const std::string& sentence) {
+    return Verdict{reason, sentence, measured_};
+  }
+  std::optional<Verdict> missed() {
+    return reject(Reason::kPeakMissed,
+                  "the pressure turned at " + kPaText(measured_.peak) + plannedText(kPaText(step_.peak)));
+  }
+  std::optional<Verdict> overshot() {
+    return reject(Reason::kPeakOvershot,
+                  "the pressure rose to " + kPaText(measured_.peak) + plannedText(kPaText(step_.peak)));
+  }
+  // Verdict on a pace; none where it is right.
+  std::optional<Verdict> wrongPace(double rate, bool filling) {
+    const Verdict pace = judgeRate(step_, rate, filling);
+    return pace.accepted() ? std::nullopt : reject(pace.reason, pace.sentence);
+  }
+
+  const SessionStep step_;
+  const double tolerance_;  // of the peak [Pa]
+  LevelCrossings crossings_;
+  Measured measured_;
+  double lowest_ = 1e9;  // [Pa]
+};
+
 // A pressure that is held. It counts from the time at which the pressure is within the tolerance of the peak.
 // The pace is judged where the hold begins at rest.
-class HoldWatch : public StepWatch {
+class HoldWatch : public PeakWatch {
  public:
   explicit HoldWatch(const SessionStep& step)
-      : step_(step),
-        crossings_(0, step.peak),
-        low_(step.peak - std::max(step.peak_error, kRestLevel)),
-        high_(step.peak + std::max(step.peak_error, kRestLevel)) {}
+      : PeakWatch(step, 0), low_(step.peak - tolerance_), high_(step.peak + tolerance_) {}
 
   std::optional<Verdict> take(const Reading& reading, const RestClock& rest) override {
     crossings_.take(reading);
@@ -180,63 +197,44 @@ class HoldWatch : public StepWatch {
     lowest_ = std::min(lowest_, reading.pressure);
     if (reading.pressure - lowest_ > 0.1 * step_.peak) begun_ = true;
     if (running()) measured_.peak = std::fmax(measured_.peak, reading.pressure);
+    if (reading.pressure > high_ && running()) return overshot();
     return inside_since_ ? holding(reading) : approaching(reading);
   }
   bool running() const override { return begun_ || inside_since_; }
-  Hint hint() const override {
-    return running() && !inside_since_ ? crossings_.stalledHint(step_.peak) : Hint{};
+  Verdict hint() const override {
+    return running() && !inside_since_ ? crossings_.stalled(step_.peak) : Verdict{};
   }
 
  private:
   std::optional<Verdict> approaching(const Reading& reading) {
-    if (reading.pressure > high_ && begun_) return overshot();
     if (reading.pressure >= low_ && reading.pressure <= high_) {
       inside_since_ = last_steady_ = reading.time;
       if (!from_rest_ || !crossings_.fillRate()) return std::nullopt;
       measured_.fill_rate = *crossings_.fillRate();
-      const Hint pace = judgeRate(step_, measured_.fill_rate, true);
-      if (pace.reason != Reason::kNone) return reject(pace.reason, pace.sentence);
-      return std::nullopt;
+      return wrongPace(measured_.fill_rate, true);
     }
-    if (begun_ && reading.pressure < low_ && measured_.peak - reading.pressure > 0.1 * step_.peak &&
-        measured_.peak < low_) {
-      return reject(Reason::kPeakMissed, "the pressure turned at " + kPaText(measured_.peak) +
-                                             ", planned are " + kPaText(step_.peak));
-    }
-    return std::nullopt;
+    const bool turned = begun_ && reading.pressure < low_ && measured_.peak < low_ &&
+                        measured_.peak - reading.pressure > 0.1 * step_.peak;
+    return turned ? missed() : std::nullopt;
   }
   std::optional<Verdict> holding(const Reading& reading) {
     const double length = reading.time - *inside_since_;
-    if (reading.pressure > high_) return overshot();
-    if (reading.pressure >= step_.peak - 0.5 * (step_.peak - low_)) last_steady_ = reading.time;
+    if (reading.pressure >= step_.peak - 0.5 * tolerance_) last_steady_ = reading.time;
     if (reading.pressure >= low_) {
       measured_.dwell = length;
-      return length >= step_.dwell_peak ? accept() : std::nullopt;
+      return length >= step_.dwell_peak ? reject(Reason::kNone, "") : std::nullopt;
     }
-    if (measured_.dwell >= step_.dwell_peak - step_.dwell_error) return accept();
+    if (measured_.dwell >= step_.dwell_peak - step_.dwell_error) return reject(Reason::kNone, "");
     // From half of the tolerance to all of it, at less than half of the pace of venting: not by the valve.
-    const double fall = 0.5 * (step_.peak - low_) / std::max(reading.time - last_steady_, 1e-9);
-    const std::string when =
-        " after " + secondsText(length) + ", planned are " + secondsText(step_.dwell_peak);
+    const double fall = 0.5 * tolerance_ / std::max(reading.time - last_steady_, 1e-9);
+    const std::string when = " after " + secondsText(length) + plannedText(secondsText(step_.dwell_peak));
     if (fall < 0.5 * step_.vent_rate)
       return reject(Reason::kLeak, "leak: the pressure fell slowly to " + kPaText(reading.pressure) + when);
     return reject(Reason::kDwellTooShort, "the pressure was let go" + when);
   }
-  std::optional<Verdict> overshot() {
-    return reject(Reason::kPeakOvershot,
-                  "the pressure rose to " + kPaText(measured_.peak) + ", planned are " + kPaText(step_.peak));
-  }
-  std::optional<Verdict> reject(Reason reason, const std::string& sentence) {
-    return Verdict{reason, sentence, measured_};
-  }
-  std::optional<Verdict> accept() { return Verdict{Reason::kNone, "", measured_}; }
 
-  const SessionStep step_;
-  LevelCrossings crossings_;
   const double low_, high_;  // what counts as the held pressure [Pa]
-  Measured measured_;
   bool from_rest_ = false;
-  double lowest_ = 1e9;                 // [Pa]
   bool begun_ = false;                  // the pressure has risen
   std::optional<double> inside_since_;  // [s]
   double last_steady_ = 0;              // last reading in the upper part of what counts [s]
@@ -259,45 +257,34 @@ constexpr double kDwellPatience =
     10;  // time above the planned dwell and its tolerance, until it is rejected [s]
 constexpr double kVentPatience = 30;  // time beyond the planned time of venting, until a complaint [s]
 
-class ExcursionWatch : public StepWatch {
+class ExcursionWatch : public PeakWatch {
  public:
   ExcursionWatch(const SessionStep& step, bool after_loop)
-      : step_(step),
+      : PeakWatch(step, step.kind == StepKind::kLoop ? step.low : 0),
         loop_(step.kind == StepKind::kLoop),
         base_(loop_ ? step.low : 0),
-        tolerance_(std::max(step.peak_error, kRestLevel)),
         end_(loop_ ? std::min(base_ + tolerance_, base_ + 0.1 * (step.peak - base_)) : kRestLevel),
-        after_loop_(after_loop),
-        crossings_(base_, step.peak) {}
+        after_loop_(after_loop) {}
 
   std::optional<Verdict> take(const Reading& reading, const RestClock& rest) override {
     now_ = reading;
     crossings_.take(reading);
-    if (phase_ != Phase::kBase) highest_ = std::max(highest_, reading.pressure);
-    switch (phase_) {
-      case Phase::kBase:
-        return base(rest);
-      case Phase::kUp:
-        return up();
-      case Phase::kTop:
-        return top();
-      case Phase::kDown:
-        break;
-    }
-    return down();
+    if (phase_ == Phase::kBase) return base(rest);
+    measured_.peak = std::max(measured_.peak, reading.pressure);
+    return phase_ == Phase::kUp ? up() : phase_ == Phase::kTop ? top() : down();
   }
   bool running() const override { return phase_ != Phase::kBase; }
-  Hint hint() const override {
-    if (phase_ == Phase::kUp) return crossings_.stalledHint(step_.peak);
+  Verdict hint() const override {
+    if (phase_ == Phase::kUp) return crossings_.stalled(step_.peak);
     const bool waits = (phase_ == Phase::kBase && !armed_) || phase_ == Phase::kDown;
     if (!waits || !since_ || now_.time - *since_ < longestVenting()) return {};
-    return {Reason::kRestNotReached, "the pressure stays at " + kPaText(now_.pressure) +
-                                         " and does not go down to " +
-                                         (loop_ ? kPaText(base_) : std::string("rest")) + "; open the vent"};
+    return notVented(now_.pressure, baseText());
   }
 
  private:
   enum class Phase { kBase, kUp, kTop, kDown };
+
+  std::string baseText() const { return loop_ ? kPaText(base_) : "rest"; }
 
   std::optional<Verdict> base(const RestClock& rest) {
     if (!since_) since_ = now_.time;
@@ -307,47 +294,36 @@ class ExcursionWatch : public StepWatch {
     if (!armed_ || at_base) return std::nullopt;
     if (loop_ && now_.pressure <= crossings_.lowLevel()) return std::nullopt;
     phase_ = Phase::kUp;
-    highest_ = now_.pressure;
-    if (loop_) return loopBase();
+    measured_.peak = now_.pressure;
+    if (loop_) {
+      if (!after_loop_ || lowest_ >= base_ - tolerance_) return std::nullopt;
+      return reject(Reason::kBaseMissed, "the pressure fell to " + kPaText(lowest_) + " before the loop" +
+                                             plannedText(kPaText(base_)));
+    }
     measured_.rest = rest.length();
     if (measured_.rest >= step_.dwell_rest - step_.dwell_error) return std::nullopt;
     return reject(Reason::kRestTooShort, "filling began after " + secondsText(measured_.rest) +
-                                             " without load, planned are " + secondsText(step_.dwell_rest));
-  }
-  std::optional<Verdict> loopBase() {
-    if (!after_loop_ || lowest_ >= base_ - tolerance_) return std::nullopt;
-    return reject(Reason::kBaseMissed, "the pressure fell to " + kPaText(lowest_) +
-                                           " before the loop, planned are " + kPaText(base_));
+                                             " without load" + plannedText(secondsText(step_.dwell_rest)));
   }
 
   std::optional<Verdict> up() {
-    if (now_.pressure >= crossings_.highLevel()) return reachTop();
+    if (now_.pressure >= crossings_.highLevel()) {
+      phase_ = Phase::kTop;
+      left_ = now_.time;
+      measured_.fill_rate = crossings_.fillRate().value_or(measured_.fill_rate);
+      const std::optional<Verdict> wrong = wrongPace(measured_.fill_rate, true);
+      return wrong ? wrong : top();
+    }
     const bool down = now_.pressure <= (loop_ ? base_ : kRestLevel);
-    if (!down && highest_ - now_.pressure < std::max(tolerance_, 0.1 * (step_.peak - base_)))
-      return std::nullopt;
-    return missed();
-  }
-  std::optional<Verdict> reachTop() {
-    phase_ = Phase::kTop;
-    left_ = now_.time;
-    measured_.fill_rate = crossings_.fillRate().value_or(measured_.fill_rate);
-    const Hint pace = judgeRate(step_, measured_.fill_rate, true);
-    if (pace.reason != Reason::kNone) return reject(pace.reason, pace.sentence);
-    return top();
-  }
-  std::optional<Verdict> missed() {
-    return reject(Reason::kPeakMissed,
-                  "the pressure turned at " + kPaText(highest_) + ", planned are " + kPaText(step_.peak));
+    const double fall = measured_.peak - now_.pressure;
+    return down || fall >= std::max(tolerance_, 0.1 * (step_.peak - base_)) ? missed() : std::nullopt;
   }
 
   std::optional<Verdict> top() {
-    if (now_.pressure > step_.peak + tolerance_) {
-      return reject(Reason::kPeakOvershot,
-                    "the pressure rose to " + kPaText(highest_) + ", planned are " + kPaText(step_.peak));
-    }
+    if (now_.pressure > step_.peak + tolerance_) return overshot();
     noteFall();
     if (now_.pressure < crossings_.highLevel()) {
-      if (highest_ < step_.peak - tolerance_) return missed();
+      if (measured_.peak < step_.peak - tolerance_) return missed();
       phase_ = Phase::kDown;
       since_ = now_.time;
       lowest_ = now_.pressure;
@@ -363,16 +339,16 @@ class ExcursionWatch : public StepWatch {
   }
   // When the pressure leaves the highest one by a quarter of the tolerance, and by all of it.
   void noteFall() {
-    if (now_.pressure >= highest_ - 0.25 * tolerance_) {
+    if (now_.pressure >= measured_.peak - 0.25 * tolerance_) {
       left_ = now_.time;
       fallen_.reset();
-    } else if (!fallen_ && now_.pressure < highest_ - tolerance_) {
+    } else if (!fallen_ && now_.pressure < measured_.peak - tolerance_) {
       fallen_ = now_;
     }
   }
   // Time of a ramp between 90 % of the way and the highest pressure [s].
   double ramp(double rate) const {
-    return rate > 0 ? std::max(0.0, highest_ - crossings_.highLevel()) / rate : 0;
+    return rate > 0 ? std::max(0.0, measured_.peak - crossings_.highLevel()) / rate : 0;
   }
 
   std::optional<Verdict> down() {
@@ -380,9 +356,8 @@ class ExcursionWatch : public StepWatch {
     lowest_ = std::min(lowest_, now_.pressure);
     if (now_.pressure <= end_) return finish();
     if (now_.pressure < lowest_ + std::max(tolerance_, 0.05 * (step_.peak - base_))) return std::nullopt;
-    return reject(Reason::kNoUnloading, "the pressure rose again at " + kPaText(lowest_) +
-                                            " before it was down to " +
-                                            (loop_ ? kPaText(base_) : std::string("rest")));
+    return reject(Reason::kNoUnloading,
+                  "the pressure rose again at " + kPaText(lowest_) + " before it was down to " + baseText());
   }
   // With a stop on the way, neither dwell nor pace of the venting can be told [s].
   double longestVenting() const {
@@ -399,42 +374,31 @@ class ExcursionWatch : public StepWatch {
     measured_.dwell =
         std::max(0.0, crossings_.timeAbove() - ramp(measured_.fill_rate) - ramp(measured_.vent_rate));
     if (leaked()) {
-      return reject(Reason::kLeak, "leak: the pressure fell slowly from " + kPaText(highest_) + " to " +
+      return reject(Reason::kLeak, "leak: the pressure fell slowly from " + kPaText(measured_.peak) + " to " +
                                        kPaText(fallen_->pressure) + " before it was vented");
     }
     const std::string dwell = "the pressure stayed at the peak for " + secondsText(measured_.dwell) +
-                              ", planned are " + secondsText(step_.dwell_peak);
+                              plannedText(secondsText(step_.dwell_peak));
     if (measured_.dwell < step_.dwell_peak - step_.dwell_error) return reject(Reason::kDwellTooShort, dwell);
     if (measured_.dwell > step_.dwell_peak + step_.dwell_error) return reject(Reason::kDwellTooLong, dwell);
-    const Hint pace = judgeRate(step_, measured_.vent_rate, false);
-    return reject(pace.reason, pace.sentence);
+    const std::optional<Verdict> wrong = wrongPace(measured_.vent_rate, false);
+    return wrong ? wrong : reject(Reason::kNone, "");
   }
   bool leaked() const {
     if (!fallen_ || !(fallen_->time > left_)) return false;
-    const double fall = (highest_ - 0.25 * tolerance_ - fallen_->pressure) / (fallen_->time - left_);
+    const double fall = (measured_.peak - 0.25 * tolerance_ - fallen_->pressure) / (fallen_->time - left_);
     return fall < 0.5 * step_.vent_rate && fall < 0.6 * measured_.vent_rate;
   }
 
-  // kNone accepts.
-  std::optional<Verdict> reject(Reason reason, const std::string& sentence) {
-    measured_.peak = highest_;
-    return Verdict{reason, sentence, measured_};
-  }
-
-  const SessionStep step_;
   const bool loop_;
-  const double base_, tolerance_, end_;  // [Pa]
+  const double base_, end_;  // [Pa]
   const bool after_loop_;
-  LevelCrossings crossings_;
   Phase phase_ = Phase::kBase;
   Reading now_;
   bool armed_ = false;             // the pressure has been at the base
   std::optional<double> since_;    // when it began to wait for the base, or to vent [s]
-  double highest_ = 0;             // [Pa]
-  double lowest_ = 1e9;            // at the base, and again behind the peak [Pa]
   double left_ = 0;                // last reading near the highest pressure [s]
   std::optional<Reading> fallen_;  // first one below its tolerance
-  Measured measured_;
 };
 
 }  // namespace

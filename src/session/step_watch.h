@@ -61,12 +61,6 @@ class RestClock {
   double last_ = 0;              // last reading at rest
 };
 
-/// What hinders a step just now.
-struct Hint {
-  Reason reason = Reason::kNone;
-  std::string sentence;
-};
-
 /// Recognises one attempt at a step in the course of the pressure. Memory does not grow with time.
 class StepWatch {
  public:
@@ -76,8 +70,8 @@ class StepWatch {
   virtual std::optional<Verdict> take(const Reading& reading, const RestClock& rest) = 0;
   /// Whether the attempt has begun, so that it can be spoilt.
   virtual bool running() const = 0;
-  /// What hinders the attempt just now.
-  virtual Hint hint() const { return {}; }
+  /// What hinders the attempt just now; accepted = nothing.
+  virtual Verdict hint() const { return {}; }
 };
 
 /// The watch of a step from `begin` [s] on. `after_loop`: the step before it was a partial loop that was

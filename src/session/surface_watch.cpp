@@ -1,4 +1,4 @@
-#include "session/surface_watch.h"
+#include "session/sheet_watch.h"
 
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
@@ -23,11 +23,7 @@ void LoadingSignature::begin(double peak) {
 
 void LoadingSignature::clear() {
   over_ = false;
-  for (Bin& bin : bins_) {
-    bin.scans = bin.pressure = bin.square = 0;
-    std::fill(bin.counts.begin(), bin.counts.end(), 0);
-    std::fill(bin.moments.begin(), bin.moments.end(), 0);
-  }
+  bins_ = {};
 }
 
 void LoadingSignature::take(double pressure, const std::uint16_t* counts, std::size_t taxels) {
@@ -82,10 +78,9 @@ struct Within {
 /// A statement that could be made: a mount is one of another surface, or was swapped with another one, or the
 /// sheet is turned, or lies on no known surface.
 struct Statement {
+  SurfaceDoubt doubt;
   std::size_t mount = 0;             // index
-  std::optional<std::size_t> like;   // index of a mount of the surface that it reads like
-  std::optional<std::size_t> with;   // index of the mount with which it was swapped
-  const char* turned = nullptr;      // how the sheet is turned
+  bool specific = true;              // it says what the mount reads like
   std::vector<MountReading> mounts;  // with surface and signature as the statement says
 };
 
@@ -99,17 +94,14 @@ Within withinSurfaces(const std::vector<MountReading>& mounts) {
   std::set<std::string> surfaces;
   for (const MountReading& one : mounts) surfaces.insert(one.surface);
   for (const std::string& surface : surfaces) {
-    const auto n = static_cast<double>(mountsOn(mounts, surface));
-    within.freedom += n - 1;
+    within.freedom += static_cast<double>(mountsOn(mounts, surface)) - 1;
     for (std::size_t i = 0; i < mounts.front().signature.size(); ++i) {
-      double sum = 0, squares = 0;
+      std::vector<double> values;
       for (const MountReading& one : mounts) {
-        if (one.surface == surface) sum += one.signature[i];
+        if (one.surface == surface) values.push_back(one.signature[i]);
       }
-      for (const MountReading& one : mounts) {
-        if (one.surface == surface) squares += std::pow(one.signature[i] - sum / n, 2);
-      }
-      within.squares += squares / static_cast<double>(mounts.front().signature.size());
+      within.squares +=
+          statistics::squaredDeviations(values) / static_cast<double>(mounts.front().signature.size());
     }
   }
   return within;
@@ -133,51 +125,84 @@ Signature turned(const MountReading& mount, bool rows, bool columns) {
   return result;
 }
 
-// Everything that could be said where the last mount is the new one. What is about the new mount comes first:
-// a person can still look at it.
-std::vector<Statement> statementsOn(const std::vector<MountReading>& mounts) {
-  std::vector<Statement> all;
-  const std::size_t last = mounts.size() - 1;
-  const std::string surface = mounts[last].surface;
-  const auto say = [&](std::size_t mount) -> Statement& {
-    all.push_back({mount, std::nullopt, std::nullopt, nullptr, mounts});
-    return all.back();
-  };
-  const auto turn = [&](bool rows, bool columns, const char* how) {
-    Statement& one = say(last);
-    one.turned = how;
-    one.mounts[last].signature = turned(mounts[last], rows, columns);
-  };
-  for (std::size_t mount = mounts.size(); mount-- > 0;) {
-    if (mounts[mount].surface != surface) continue;
-    std::set<std::string> others = {surface};
-    for (std::size_t like = 0; like < last; ++like) {
-      if (mounts[like].surface == surface) continue;
-      if (others.insert(mounts[like].surface).second) {
-        Statement& one = say(mount);
-        one.like = like;
-        one.mounts[mount].surface = mounts[like].surface;
-      }
-      Statement& one = say(mount);
-      one.with = like;
-      std::swap(one.mounts[mount].surface, one.mounts[like].surface);
-    }
-    if (mount == last && mounts[last].columns > 0) {
-      turn(true, false, "with its rows reversed");
-      turn(false, true, "with its columns reversed");
-      turn(true, true, "turned by half a turn");
-    }
-  }
-  for (std::size_t mount = mounts.size(); mount-- > 0;) {
-    if (mounts[mount].surface == surface) say(mount).mounts = without(mounts, mount);
-  }
-  return all;
+std::string nameOf(const MountReading& mount) {
+  return "mount " + std::to_string(mount.mount);
 }
 
-// Whether it says what the mount reads like, and not only that it reads like nothing known.
-bool isSpecific(const Statement& statement) {
-  return statement.like || statement.with || statement.turned != nullptr;
-}
+// Everything that could be said where the last mount is the new one. What is about the new mount comes first:
+// a person can still look at it.
+class Statements {
+ public:
+  explicit Statements(const std::vector<MountReading>& mounts) : mounts_(mounts) {
+    const std::size_t last = mounts.size() - 1;
+    const MountReading& now = mounts[last];
+    for (std::size_t mount = mounts.size(); mount-- > 0;) {
+      if (mounts[mount].surface != now.surface) continue;
+      std::set<std::string> others = {now.surface};
+      for (std::size_t other = 0; other < last; ++other) {
+        if (mounts[other].surface == now.surface) continue;
+        if (others.insert(mounts[other].surface).second) sayLike(mount, mounts[other]);
+        saySwapped(mount, other);
+      }
+      if (mount != last || now.columns == 0) continue;
+      sayTurned(last, true, false, "with its rows reversed");
+      sayTurned(last, false, true, "with its columns reversed");
+      sayTurned(last, true, true, "turned by half a turn");
+    }
+    for (std::size_t mount = mounts.size(); mount-- > 0;) {
+      if (mounts[mount].surface == now.surface) sayUnlike(mount);
+    }
+  }
+
+  std::vector<Statement> all;
+
+ private:
+  // `other`: a surface beside its own with which the mount is compared.
+  Statement& say(std::size_t mount, const std::string& sentence, const std::string& other = "") {
+    Statement statement{{mounts_[mount].mount, std::nullopt, sentence, {}, 1}, mount, true, mounts_};
+    for (std::size_t i = 0; i < mounts_.size(); ++i) {
+      const bool compared = mounts_[i].surface == mounts_[mount].surface || mounts_[i].surface == other;
+      if (i != mount && compared) statement.doubt.against.push_back(mounts_[i].mount);
+    }
+    all.push_back(std::move(statement));
+    return all.back();
+  }
+  // "flat (mount 1, mount 3)": the surface of a mount with its other mounts.
+  std::string own(std::size_t mount) const {
+    std::string others;
+    for (std::size_t i = 0; i < mounts_.size(); ++i) {
+      if (i != mount && mounts_[i].surface == mounts_[mount].surface)
+        others += (others.empty() ? "" : ", ") + nameOf(mounts_[i]);
+    }
+    return mounts_[mount].surface + " (" + others + ")";
+  }
+  std::string reads(std::size_t mount) const { return nameOf(mounts_[mount]) + " reads "; }
+
+  void sayLike(std::size_t mount, const MountReading& like) {
+    say(mount, reads(mount) + "like " + like.surface + " (" + nameOf(like) + "), not like " + own(mount),
+        like.surface)
+        .mounts[mount]
+        .surface = like.surface;
+  }
+  void saySwapped(std::size_t mount, std::size_t with) {
+    const auto both = [this](std::size_t i) { return nameOf(mounts_[i]) + " (" + mounts_[i].surface + ")"; };
+    Statement& one = say(mount, both(mount) + " and " + both(with) + " read as if they were swapped",
+                         mounts_[with].surface);
+    one.doubt.swapped = mounts_[with].mount;
+    std::swap(one.mounts[mount].surface, one.mounts[with].surface);
+  }
+  void sayTurned(std::size_t mount, bool rows, bool columns, const std::string& how) {
+    say(mount, reads(mount) + "like " + own(mount) + " with the sheet " + how).mounts[mount].signature =
+        turned(mounts_[mount], rows, columns);
+  }
+  void sayUnlike(std::size_t mount) {
+    Statement& one = say(mount, reads(mount) + "unlike " + own(mount));
+    one.specific = false;
+    one.mounts = without(mounts_, mount);
+  }
+
+  const std::vector<MountReading>& mounts_;
+};
 
 // The chance of so large a distance from the own surface, if the mount is right.
 double chanceOf(const Statement& statement, const std::vector<MountReading>& mounts) {
@@ -190,44 +215,6 @@ double chanceOf(const Statement& statement, const std::vector<MountReading>& mou
   return 2 * cdf(complement(t, std::sqrt(distance / variance)));
 }
 
-std::string nameOf(const MountReading& mount) {
-  return "mount " + std::to_string(mount.mount);
-}
-
-std::string sentenceOf(const Statement& statement, const std::vector<MountReading>& mounts) {
-  const MountReading& mount = mounts[statement.mount];
-  std::string others;
-  for (std::size_t i = 0; i < mounts.size(); ++i) {
-    if (i != statement.mount && mounts[i].surface == mount.surface)
-      others += (others.empty() ? "" : ", ") + nameOf(mounts[i]);
-  }
-  if (statement.with) {
-    const MountReading& with = mounts[*statement.with];
-    return nameOf(mount) + " (" + mount.surface + ") and " + nameOf(with) + " (" + with.surface +
-           ") read as if they were swapped";
-  }
-  const std::string sentence = nameOf(mount) + " reads ";
-  if (statement.like) {
-    const MountReading& like = mounts[*statement.like];
-    return sentence + "like " + like.surface + " (" + nameOf(like) + "), not like " + mount.surface + " (" +
-           others + ")";
-  }
-  if (statement.turned != nullptr)
-    return sentence + "like " + mount.surface + " (" + others + ") with the sheet " + statement.turned;
-  return sentence + "unlike " + mount.surface + " (" + others + ")";
-}
-
-std::vector<unsigned> against(const Statement& statement, const std::vector<MountReading>& mounts) {
-  std::vector<unsigned> numbers;
-  for (std::size_t i = 0; i < mounts.size(); ++i) {
-    const bool own = mounts[i].surface == mounts[statement.mount].surface;
-    const auto& other = statement.with ? statement.with : statement.like;
-    const bool like = other && mounts[i].surface == mounts[*other].surface;
-    if (i != statement.mount && (own || like)) numbers.push_back(mounts[i].mount);
-  }
-  return numbers;
-}
-
 }  // namespace
 
 std::optional<SurfaceDoubt> SurfaceWatch::compare(const MountReading& now) const {
@@ -237,20 +224,14 @@ std::optional<SurfaceDoubt> SurfaceWatch::compare(const MountReading& now) const
   }
   if (now.signature.empty() || mountsOn(mounts, now.surface) == 0) return std::nullopt;
   mounts.push_back(now);
-  const std::vector<Statement> statements = statementsOn(mounts);
+  std::vector<Statement> statements = Statements(mounts).all;
   const double could_be_said =
       static_cast<double>(statements.size() * std::max<std::size_t>(1, comparisons_));
   SurfaceDoubt doubt;
-  for (const Statement& statement : statements) {
-    if (!isSpecific(statement) && doubt.chance < kFalse) break;  // these come last
-    const double chance = chanceOf(statement, mounts) * could_be_said;
-    if (chance >= doubt.chance * (1 - kSame)) continue;
-    doubt.mount = mounts[statement.mount].mount;
-    doubt.sentence = sentenceOf(statement, mounts);
-    doubt.swapped.reset();
-    if (statement.with) doubt.swapped = mounts[*statement.with].mount;
-    doubt.against = against(statement, mounts);
-    doubt.chance = chance;
+  for (Statement& statement : statements) {
+    if (!statement.specific && doubt.chance < kFalse) break;  // these come last
+    statement.doubt.chance = chanceOf(statement, mounts) * could_be_said;
+    if (statement.doubt.chance < doubt.chance * (1 - kSame)) doubt = statement.doubt;
   }
   if (doubt.chance >= kFalse) return std::nullopt;
   return doubt;

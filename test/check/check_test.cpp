@@ -87,14 +87,14 @@ CheckResult recheck(const Change& change, unsigned seed = 2, bool bent = false) 
 // One bag, one file, one expected error.
 TEST(Check, StatesTheExpectedErrorOfTheMap) {
   const std::vector<Recording> recordings = {syntheticRecording(loopedRig(2, false))};
-  const double checked = fsr::check::errorsOfMap(parent(), recordings).whole.expected_rmse;
+  const double checked = fsr::check::errorsOfMap(parent(), recordings).whole.expectedRmse();
   EXPECT_DOUBLE_EQ(decide(parent(), recordings, sameMount()).correction->expected, checked);
   const Change worn = [](double reading, std::size_t) { return 0.9 * reading + 30; };
   const std::vector<Recording> other = {changed(recordings.front(), worn)};
   const CheckResult corrected = decide(parent(), other, sameMount());
   ASSERT_EQ(corrected.verdict, Verdict::kCorrected);
   EXPECT_DOUBLE_EQ(corrected.correction->expected,
-                   fsr::check::errorsOfMap(parent(), other).whole.expected_rmse);
+                   fsr::check::errorsOfMap(parent(), other).whole.expectedRmse());
 }
 
 // Flat on mounts that read `gains` as much; numbers 2, 3, ...
@@ -126,7 +126,7 @@ double worn(double reading, std::size_t) {
 }
 
 double rmse(const Calibration& calibration, const Recording& recording) {
-  return fsr::check::errorsOfMap(calibration, {recording}).whole.rmse;
+  return fsr::check::errorsOfMap(calibration, {recording}).whole.rmse();
 }
 
 TEST(Check, CorrectsAPlantedGainAndOffset) {
@@ -407,10 +407,8 @@ TEST(Check, RefusesTheChildOfAChild) {
   ASSERT_TRUE(first.child.has_value());
   Calibration child = *first.child;
   child.id = "ba9876543210";
-  EXPECT_EQ(
-      refusal([&] { decide(child, {syntheticRecording(loopedRig(2, false))}); }),
-      "calibration ba9876543210 is itself a correction of 0123456789ab; correct that one again with the "
-      "new bags, or train anew");
+  EXPECT_TRUE(test_support::holds(refusal([&] { decide(child, {syntheticRecording(loopedRig(2, false))}); }),
+                                  {"ba9876543210 is itself a correction of 0123456789ab"}));
 }
 
 class CorrectedFile : public testing::Test {

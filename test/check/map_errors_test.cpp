@@ -1,4 +1,4 @@
-#include "check/map_errors.h"
+#include "check/check.h"
 
 #include <gtest/gtest.h>
 
@@ -57,8 +57,8 @@ TEST(MapErrors, AcceptsTheSameSheet) {
   for (unsigned seed = 2; seed < 12; ++seed) {
     const MapErrors check = checkWith([](double count, std::size_t, std::size_t) { return count; }, seed);
     EXPECT_TRUE(check.faults.empty()) << seed << ": " << (check.faults.empty() ? "" : check.faults.front());
-    EXPECT_NEAR(check.whole.rmse / check.whole.expected_rmse, 1, 0.15);
-    EXPECT_NEAR(check.whole.within_one_deviation, 0.65, 0.1);
+    EXPECT_NEAR(check.whole.rmse() / check.whole.expectedRmse(), 1, 0.15);
+    EXPECT_NEAR(check.whole.share(check.whole.within), 0.65, 0.1);
     ASSERT_EQ(check.surfaces.size(), 2u);
     EXPECT_EQ(check.surfaces[1].name, "cylinder_7cm");
   }
@@ -129,7 +129,7 @@ Recording another() {
 TEST(MapErrorsOfASession, AreThoseWithTheTareAtTheStart) {
   const fsr::calibration::Calibration calibration = sessions(7, 10e3);
   const MapErrors check = errorsOfMap(calibration, {memorySession(8, 10e3)});
-  EXPECT_LT(check.whole.rmse, 0.3 * check.rmse_without_tare);
+  EXPECT_LT(check.whole.rmse(), 0.3 * check.rmse_without_tare);
   ASSERT_FALSE(check.remarks.empty());
   EXPECT_EQ(check.remarks[0].find("each session is checked with a tare at its start, as the calibration "
                                   "expects; without it the RMSE is "),
@@ -138,7 +138,7 @@ TEST(MapErrorsOfASession, AreThoseWithTheTareAtTheStart) {
   Recording loaded = memorySession(8, 10e3);  // from the start
   for (std::size_t i = 0; i < 60; ++i) loaded.pressure[i] = 300e3;
   const MapErrors blind = errorsOfMap(calibration, {loaded});
-  EXPECT_DOUBLE_EQ(blind.whole.rmse, blind.rmse_without_tare);
+  EXPECT_DOUBLE_EQ(blind.whole.rmse(), blind.rmse_without_tare);
   EXPECT_NE(blind.remarks[1].find("not tared, because it does not start with 2 s at rest"),
             std::string::npos);
   const MapErrors none = errorsOfMap(sessions(3, 0), {memorySession(8, 0)});
@@ -155,7 +155,7 @@ TEST(MapErrorsOfMemory, StatesPartsAndWhatWasNotSettled) {
     ADD_FAILURE() << "no part " << name;
     return fsr::calibration::HistoryScore::Part{};
   };
-  EXPECT_DOUBLE_EQ(part("all readings").rmse, check.whole.rmse);
+  EXPECT_DOUBLE_EQ(part("all readings").rmse, check.whole.rmse());
   const double all = double(part("all readings").readings), open = double(part("not settled").readings);
   EXPECT_DOUBLE_EQ(double(part("loading").readings + part("unloading").readings), all - open);
   EXPECT_LT(open, 0.01 * all) << "a bag that begins at rest is settled at once";
@@ -177,7 +177,7 @@ TEST(MapErrorsOfMemory, SaysWhichPromiseItCannotSee) {
   held.counts = counts;
   const MapErrors check = errorsOfMap(calibration, {held});
   ASSERT_EQ(check.not_shown.size(), 2u);
-  EXPECT_GT(check.whole.not_settled, 0.5);
+  EXPECT_GT(check.whole.share(check.whole.unsettled), 0.5);
   EXPECT_NE(check.not_shown[0].find(" of the readings were not settled, so that the RMSE that training found "
                                     "with it"),
             std::string::npos)
@@ -192,10 +192,10 @@ TEST(MapErrorsOfMemory, GoesOnInTheNextBagOfASheetThatLayOn) {
   const Recording whole = another();
   const Recording first = test_support::partOf(whole, 0, 60);
   Recording second = test_support::partOf(whole, 60, whole.scans());
-  const double undivided = errorsOfMap(calibration, {whole}).whole.rmse;
-  EXPECT_NEAR(errorsOfMap(calibration, {second, first}).whole.rmse, undivided, 1e-6 * undivided);
+  const double undivided = errorsOfMap(calibration, {whole}).whole.rmse();
+  EXPECT_NEAR(errorsOfMap(calibration, {second, first}).whole.rmse(), undivided, 1e-6 * undivided);
   second.conditions[0].mount = 2;
-  EXPECT_GT(errorsOfMap(calibration, {second, first}).whole.rmse, 1.01 * undivided);
+  EXPECT_GT(errorsOfMap(calibration, {second, first}).whole.rmse(), 1.01 * undivided);
 }
 
 }  // namespace

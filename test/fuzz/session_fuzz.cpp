@@ -4,7 +4,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "fuzz/fuzz_file.h"
-#include "session/plan_file.h"
+#include "session/plan.h"
 #include "session/plan_steps.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {

@@ -16,12 +16,10 @@ std::string checkText(const CheckResult& result) {
 // A check of 1,000 readings with an error of 3 kPa, where 4 kPa are expected.
 CheckResult example() {
   CheckResult result;
-  result.map.whole = {"", 1000, 4000, 3000, -250, 0.71, 0.002, 0};
+  result.map.whole = {"", 1000, 710, 2, 0, -250e3, 9e9, 16e9};
   result.map.range = {0, 620e3};
   result.map.within = {6.2e3, 15.5e3};
-  result.map.bags.resize(2);
-  result.map.bags[0].name = "a.bag", result.map.bags[0].rmse = 5e3;
-  result.map.bags[1].name = "b.bag", result.map.bags[1].rmse = 9e3;
+  result.map.bags = {{"a.bag", 1, 0, 0, 0, 0, 25e6, 0}, {"b.bag", 1, 0, 0, 0, 0, 81e6, 0}};
   return result;
 }
 

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
 
@@ -41,7 +42,7 @@ TEST(Conductor, TellsTheNumbersOfAStep) {
   Instruction now = day.conductor.instruction();
   EXPECT_EQ(now.kind, StepKind::kMount);
   EXPECT_TRUE(now.confirm);
-  EXPECT_EQ(now.text, "Put the sheet on flat, mount 1. Then confirm.");
+  EXPECT_EQ(now.surface, "flat");
   EXPECT_FALSE(day.conductor.recording());
   followTo(day, 6);
   now = day.conductor.instruction();
@@ -130,15 +131,14 @@ TEST(Conductor, RefusesADamagedState) {
 TEST(Conductor, SkipsAWholeMount) {
   RigDay day(planFrom(kDay));
   followTo(day, 9);
-  EXPECT_EQ(day.conductor.skip().sentence, "mount 2 on cylinder_5cm: 5 steps are skipped");
+  EXPECT_TRUE(day.conductor.skip().done);
+  EXPECT_EQ(std::count(day.conductor.states().begin(), day.conductor.states().end(), StepState::kSkipped), 5);
   EXPECT_EQ(day.conductor.instruction().mount, 3u);
   followTo(day, day.conductor.instruction().steps);
   day.follow();
   EXPECT_TRUE(day.conductor.done());
-  EXPECT_EQ(day.conductor.instruction().text,
-            "The session is over: 13 steps accepted, 5 skipped, 0 attempts rejected.");
-  EXPECT_EQ(day.conductor.reject("").sentence,
-            "the session is over; record what should be repeated in another one");
+  EXPECT_TRUE(test_support::holds(day.conductor.instruction().text, {"13 steps accepted, 5 skipped, 0 att"}));
+  EXPECT_FALSE(day.conductor.reject("").done);
   EXPECT_TRUE(day.conductor.done());
 }
 
@@ -206,11 +206,9 @@ TEST(Coverage, CountsPassesPacesAndDwellsOfAcceptedSteps) {
   EXPECT_EQ(now.surfaces[0].unloading[9].accepted, 1u);
   EXPECT_EQ(now.surfaces[1].loading[3].accepted, 0u);
   ASSERT_EQ(now.paces.size(), 1u);
-  EXPECT_EQ(now.paces[0].value, 20e3);
-  EXPECT_EQ(now.paces[0].steps.planned, 6u);
-  EXPECT_EQ(now.paces[0].steps.accepted, 1u);
-  ASSERT_EQ(now.dwells.size(), 1u);
-  EXPECT_EQ(now.dwells[0].steps.accepted, 1u);
+  EXPECT_EQ(now.paces.at(20e3).planned, 6u);
+  EXPECT_EQ(now.paces.at(20e3).accepted, 1u);
+  EXPECT_EQ(now.dwells.at(1).accepted, 1u);
 }
 
 TEST(Coverage, APictureShowsWhatIsMissing) {

@@ -7,7 +7,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "session/coverage.h"
-#include "session/plan_file.h"
+#include "session/plan.h"
 #include "session/rig_day.h"
 #include "session/session_files.h"
 #include "settings/sha256.h"
@@ -70,7 +70,7 @@ TEST_F(DayRecord, ASessionWhosePlanWasWordedOtherwiseGoesOn) {
   const auto plan = planFrom(kShortDay);
   std::string text = planText(plan);
   text.replace(text.find("# of the order"), 14, "# in other words");
-  std::ofstream(path(planFileName(plan.name))) << "# The plan of this session.\n" << text;
+  std::ofstream(path(sessionFile(plan.name, kPlanFile))) << "# The plan of this session.\n" << text;
   RigDay rig(plan);
   ConductorState state = dayWithTrouble(rig);
   state.digest = fsr::settings::sha256(text.data(), text.size());
@@ -80,7 +80,7 @@ TEST_F(DayRecord, ASessionWhosePlanWasWordedOtherwiseGoesOn) {
   auto other = plan;
   other.rest.before += 1;
   EXPECT_THROW(Conductor(other, readState(path("state.yaml"))), fsr::settings::InputError);
-  std::ofstream(path(planFileName(plan.name)), std::ios::app) << "# changed by hand\n";
+  std::ofstream(path(sessionFile(plan.name, kPlanFile)), std::ios::app) << "# changed by hand\n";
   EXPECT_THROW(Conductor(plan, readState(path("state.yaml"))), fsr::settings::InputError);
 }
 
@@ -147,7 +147,7 @@ TEST(CoverageSvg, GivesTheNumbersOfEachCellAndEscapesNames) {
   coverage.surfaces = {
       {"<flat>", 0, std::vector<Share>(Coverage::kBins), std::vector<Share>(Coverage::kBins)}};
   coverage.surfaces[0].loading[1] = {5, 2};
-  coverage.paces = {{20e3, {5, 5}}};
+  coverage.paces[20e3] = {5, 5};
   const std::string svg = coverageSvg(coverage);
   EXPECT_TRUE(test_support::holds(svg, {"<title>&lt;flat&gt;, loading, 50 to 100 kPa: 2 of 5</title>",
                                         "<title>pace 20 kPa/s: 5 of 5</title>"}));

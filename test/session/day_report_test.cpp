@@ -200,31 +200,23 @@ TEST(DayAdvice, NamesWhatWasNotDone) {
   ASSERT_EQ(adviceOf(day, "the state of the session").size(), 1u);
   EXPECT_TRUE(has(adviceOf(day, "the state of the session")[0], "Mount 1 on flat: Cycle 2 of 2: fill"));
   day.state.steps.assign(4, StepState::kOpen);
-  EXPECT_EQ(adviceOf(day, "the state of the session"),
-            std::vector<std::string>{"Mount 1 on flat: none of its 4 steps was done."});
+  EXPECT_TRUE(holds(adviceOf(day, "the state of the session").at(0), {"none of its 4 steps was done"}));
 }
 
 TEST(DayAdvice, SaysWhatWouldAssessALineOfTheBudget) {
-  EXPECT_EQ(
-      adviceOf(fullDay(), "train, error budget"),
-      (std::vector<std::string>{
-          "Put the sheet on each surface two times or more. The line \"mount\" is not assessed: no surface "
-          "was "
-          "mounted more than once.",
-          "No recording of this sheet in the chamber assesses: in a socket (shear, compliance, humidity)."}));
+  const std::vector<std::string> advice = adviceOf(fullDay(), "train, error budget");
+  ASSERT_EQ(advice.size(), 2u);
+  EXPECT_TRUE(holds(advice[0], {"\"mount\" is not assessed: no surface was mounted more than once"}));
+  EXPECT_TRUE(holds(advice[1], {"in a socket (shear, compliance, humidity)"}));
 }
 
 TEST(DayAdvice, CarriesTheSentencesOfTheTools) {
   EXPECT_EQ(adviceOf(fullDay(), "train, coverage"),
             std::vector<std::string>{"flat, 400+ kPa unloading: no scans"});
-  EXPECT_EQ(adviceOf(fullDay(), "train"),
-            std::vector<std::string>{
-                "History: none, since all cycles have one protocol; record cycles with two paces."});
-  EXPECT_EQ(
-      adviceOf(fullDay(), "discrepancy"),
-      (std::vector<std::string>{
-          "Next experiment: None.",
-          "repositioning, break_in: No surface was mounted twice. An experiment that shows it: remount."}));
+  EXPECT_TRUE(holds(adviceOf(fullDay(), "train").at(0), {"record cycles with two paces"}));
+  const std::vector<std::string> told = adviceOf(fullDay(), "discrepancy");
+  ASSERT_EQ(told.size(), 2u);
+  EXPECT_TRUE(holds(told[1], {"repositioning, break_in: No surface was mounted twice", "remount"}));
 }
 
 TEST(DayAdvice, IsThatOfThePlanWhereNothingElseIsMissing) {

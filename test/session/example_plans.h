@@ -3,7 +3,7 @@
 #include <functional>
 #include <string>
 
-#include "session/plan_file.h"
+#include "session/plan.h"
 #include "support/source_dir.h"
 
 namespace example_plans {

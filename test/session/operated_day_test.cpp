@@ -13,7 +13,7 @@
 #include "fsr_pressure_map/health/taxel_watch.h"
 #include "protocol/wire_decoder.h"
 #include "session/conductor.h"
-#include "session/plan_file.h"
+#include "session/plan.h"
 #include "simulation/settings_text.h"
 #include "support/clumsy_operator.h"
 #include "support/content_of.h"

@@ -1,4 +1,4 @@
-#include "session/plan_report.h"
+#include "session/plan.h"
 
 #include <gtest/gtest.h>
 

@@ -73,7 +73,6 @@ TEST(SessionSteps, LastAsLongAsTheirPartsByHand) {
   EXPECT_EQ(steps[7].rate_error, 0.25);
   EXPECT_EQ(steps[7].dwell_error, 2);
   EXPECT_EQ(steps.back().mount, 2u);
-  EXPECT_EQ(steps.back().visit, 2u);
   EXPECT_EQ(steps.back().surface, "flat");
 }
 

@@ -1,11 +1,10 @@
-#include "session/propose.h"
+#include "session/plan.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "session/example_plans.h"
-#include "session/plan_report.h"
 #include "session/plan_steps.h"
 
 namespace fsr::session {

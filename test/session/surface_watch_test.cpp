@@ -1,4 +1,4 @@
-#include "session/surface_watch.h"
+#include "session/sheet_watch.h"
 
 #include <gtest/gtest.h>
 
@@ -6,9 +6,6 @@
 #include <cmath>
 #include <random>
 #include <string>
-
-#include "session/sheet_watch.h"
-#include "session/surface_watch.h"
 
 namespace {
 
@@ -82,7 +79,8 @@ TEST(SurfaceWatch, NamesTheSurfaceThatTheSheetReadsLike) {
   const auto doubt = watch.compare(mounts.on("flat", 300));
   ASSERT_TRUE(doubt);
   EXPECT_EQ(doubt->mount, 8u);
-  EXPECT_EQ(doubt->sentence, "mount 8 reads like bent (mount 2), not like flat (mount 1, mount 3, mount 5)");
+  EXPECT_NE(doubt->sentence.find("mount 8 reads like bent"), std::string::npos) << doubt->sentence;
+  EXPECT_EQ(doubt->against, (std::vector<unsigned>{1, 2, 3, 4, 5, 6}));
   EXPECT_LT(doubt->chance, SurfaceWatch::kFalse);
 }
 

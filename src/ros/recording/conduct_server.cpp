@@ -17,7 +17,7 @@
 #include "ros/messages/surface_message.h"
 #include "ros/messages/view_messages.h"
 #include "session/coverage.h"
-#include "session/plan_file.h"
+#include "session/plan.h"
 #include "session/session_files.h"
 #include "settings/number_text.h"
 #include "settings/replace_file.h"
@@ -95,10 +95,9 @@ void ConductServer::start(const Parameters& parameters) {
   folder_ = resolveLaunchPath(parameters.text("folder", "session"));
   frame_id_ = parameters.text("frame_id", "fsr_matrix");
   minutes_ = parameters.number("minutes", 0, {0, 1e5, "min"});
-  fsr::session::ConductorOptions options;
   reserve_ =
       1e6 * Parameters(ros::NodeHandle(private_handle_, "recorder")).number("min_space", 200, {0, 1e9, "MB"});
-  options.silence = parameters.number("silence", options.silence, {0.1, 1e4, "s"});
+  const double silence = parameters.number("silence", 2, {0.1, 1e4, "s"});
   std::error_code failed;
   fs::create_directories(folder_, failed);
   if (!fs::is_directory(folder_)) throw parameters.error("folder", "is no folder and cannot be made");
@@ -106,17 +105,19 @@ void ConductServer::start(const Parameters& parameters) {
   const RescuedSession rescued = rescueSession(folder_, plan_.name);
   for (const std::string& sentence : rescued.closed) ROS_WARN_STREAM(sentence);
   for (const std::string& sentence : rescued.open) ROS_ERROR_STREAM(sentence);
-  state_file_ = (fs::path(folder_) / fsr::session::stateFileName(plan_.name)).string();
+  state_file_ =
+      (fs::path(folder_) / fsr::session::sessionFile(plan_.name, fsr::session::kStateFile)).string();
   if (fs::exists(state_file_)) {
     conductor_ =
-        std::make_unique<fsr::session::Conductor>(plan_, fsr::session::readState(state_file_), options);
+        std::make_unique<fsr::session::Conductor>(plan_, fsr::session::readState(state_file_), silence);
     ROS_INFO_STREAM("the session of " << state_file_ << " goes on; remove that file to begin anew");
   } else {
-    conductor_ = std::make_unique<fsr::session::Conductor>(plan_, options);
+    conductor_ = std::make_unique<fsr::session::Conductor>(plan_, silence);
   }
   // So that the folder tells by itself what was planned.
-  fsr::settings::replaceFile((fs::path(folder_) / fsr::session::planFileName(plan_.name)).string(),
-                             planText(plan_, {"The plan of this session."}));
+  fsr::settings::replaceFile(
+      (fs::path(folder_) / fsr::session::sessionFile(plan_.name, fsr::session::kPlanFile)).string(),
+      planText(plan_, {"The plan of this session."}));
   if (parameters.flag("report", true)) reporter_ = std::make_unique<DayReporter>(folder_, plan_.name);
 }
 

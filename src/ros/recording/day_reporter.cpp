@@ -16,8 +16,8 @@ namespace fs = std::filesystem;
 
 DayReporter::DayReporter(std::string folder, const std::string& plan)
     : folder_(fs::absolute(folder).lexically_normal().string()) {
-  const fs::path results = fs::path(folder_) / fsr::session::resultsFolderName(plan);
-  report_ = (fs::path(folder_) / fsr::session::reportFileName(plan)).string();
+  const fs::path results = fs::path(folder_) / fsr::session::sessionFile(plan, fsr::session::kResultsFolder);
+  report_ = (fs::path(folder_) / fsr::session::sessionFile(plan, fsr::session::kReportFile)).string();
   output_ = (results / "day_report.txt").string();
   log_ = (results / "day_report.log").string();
 }

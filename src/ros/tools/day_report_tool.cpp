@@ -9,7 +9,7 @@
 #include "ros/programs/sibling_program.h"
 #include "ros/tools/tool_options.h"
 #include "session/day_report.h"
-#include "session/plan_file.h"
+#include "session/plan.h"
 #include "session/session_files.h"
 #include "settings/command_line.h"
 #include "settings/regular_file.h"
@@ -100,7 +100,7 @@ Words operator+(Words words, const Words& more) {
 }
 
 void runTools(const fsr::settings::CommandLine& line, const std::string& folder, DayReport& day) {
-  const Parts parts(folder, fsr::session::resultsFolderName(day.plan.name));
+  const Parts parts(folder, fsr::session::sessionFile(day.plan.name, fsr::session::kResultsFolder));
   const Words bags = bagsOf(day);
   if (bags.empty()) {
     day.check.refused = day.training.refused = day.discrepancy.refused =
@@ -127,7 +127,7 @@ DayReport recordOf(const fsr::settings::CommandLine& line, const std::string& fo
     plan_name = fsr::session::readPlanFile(line.text("plan", ""), line.text("surfaces", "")).name;
   const fs::path state_file = fs::path(folder) / fsr::session::stateFileIn(folder, plan_name);
   const fsr::session::ConductorState state = fsr::session::readState(state_file.string());
-  const fs::path beside = fs::path(folder) / fsr::session::planFileName(state.plan);
+  const fs::path beside = fs::path(folder) / fsr::session::sessionFile(state.plan, fsr::session::kPlanFile);
   const std::string plan_file = line.text("plan", beside.string());
   if (!fs::exists(plan_file))
     throw InputError(
@@ -160,7 +160,8 @@ int dayReportTool(int argc, const char* const* argv, std::ostream& out) {
   checkOptions(line);
   const std::string folder = fs::absolute(line.files().front()).lexically_normal().string();
   DayReport day = recordOf(line, folder);
-  const std::string page = (fs::path(folder) / fsr::session::reportFileName(day.plan.name)).string();
+  const std::string page =
+      (fs::path(folder) / fsr::session::sessionFile(day.plan.name, fsr::session::kReportFile)).string();
   fsr::settings::requireReplaceable(page, fsr::settings::file_kind::kPage);
   runTools(line, folder, day);
   fsr::settings::replaceFile(page, fsr::session::dayHtml(day));

@@ -11,7 +11,7 @@
 #include "ros/bags/simulated_bags.h"
 #include "ros/tools/discrepancy_files.h"
 #include "ros/tools/tool_options.h"
-#include "session/plan_file.h"
+#include "session/plan.h"
 #include "session/plan_steps.h"
 #include "settings/command_line.h"
 #include "settings/progress.h"

@@ -13,7 +13,7 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "ros/programs/sibling_program.h"
 #include "session/conductor.h"
-#include "session/plan_file.h"
+#include "session/plan.h"
 #include "session/session_files.h"
 #include "support/content_of.h"
 #include "support/holds.h"

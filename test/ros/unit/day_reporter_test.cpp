@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "session/conductor.h"
-#include "session/plan_file.h"
+#include "session/plan.h"
 #include "session/session_files.h"
 #include "support/folder_test.h"
 #include "support/source_dir.h"

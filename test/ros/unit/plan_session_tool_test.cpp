@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "session/plan_file.h"
+#include "session/plan.h"
 #include "session/plan_steps.h"
 #include "support/pty.h"
 #include "support/source_dir.h"
