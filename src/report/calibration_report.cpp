@@ -60,9 +60,8 @@ std::string temperatureText(const calibration::Calibration& calibration) {
   for (const auto& group : score.groups)
     table.row({group.name, inShownUnit(group.without, kDecimals), inShownUnit(group.with, kDecimals)});
   return text + "RMSE of readings [" + settings::shownUnitName() +
-         " on a straight line up to the highest pressure]; each protocol and recording "
-         "was "
-         "predicted without it\n" +
+         " on a straight line up to the highest pressure]; each protocol and recording was predicted without "
+         "it\n" +
          table.text();
 }
 
