@@ -256,11 +256,13 @@ void Conductor::checkSilence() {
   if (done() || !started_ || waitsForMount() || steps_[step_].kind == StepKind::kBreak) return;
   const double quiet = now_ - last_pressure_.value_or(step_begin_);
   const double blind = now_ - last_scan_.value_or(step_begin_);
-  if (const auto invalid = complaints_.find(Reason::kPressureInvalid); quiet > silence_) {
-    if (invalid == complaints_.end())
+  if (quiet > silence_) {
+    const auto invalid = complaints_.find(Reason::kPressureInvalid);
+    if (invalid == complaints_.end()) {
       hinder(Reason::kPressureLost, "no reading of the chamber pressure for " + secondsText(quiet));
-    else
-      spoil(invalid->first, invalid->second);
+    } else {
+      spoil(Reason::kPressureInvalid, invalid->second);
+    }
   }
   if (steps_[step_].recorded && blind > silence_)
     hinder(Reason::kScansLost, "no scan came for " + secondsText(blind));
@@ -313,8 +315,9 @@ Verdict Conductor::withScans(Verdict verdict) {
   complain(Reason::kTaxelFellOut, "", false);
   if (!steps_[step_].recorded) return verdict;
   if (fallen > 0) return reject(Reason::kTaxelFellOut, fallenText(fallen));
-  for (const auto& [reason, sentence] : complaints_) {
-    if (reason == Reason::kOtherSurface || reason == Reason::kNotRecorded) return reject(reason, sentence);
+  for (const Reason reason : {Reason::kOtherSurface, Reason::kNotRecorded}) {
+    const auto complaint = complaints_.find(reason);
+    if (complaint != complaints_.end()) return reject(reason, complaint->second);
   }
   if (scans_ == 0) return reject(Reason::kScansLost, "no scan came");
   if (lost_ > kLostScans * (scans_ + lost_)) {

@@ -26,7 +26,8 @@ Coverage coverageOf(const SessionPlan& plan, const std::vector<SessionStep>& ste
       share.accepted += accepted ? 1 : 0;
     };
     for (SurfaceCoverage& surface : coverage.surfaces) {
-      for (std::size_t bin = 0; bin < Coverage::kBins && surface.surface == step.surface; ++bin) {
+      if (surface.surface != step.surface) continue;
+      for (std::size_t bin = 0; bin < Coverage::kBins; ++bin) {
         const double middle = (static_cast<double>(bin) + 0.5) / Coverage::kBins * coverage.largest_peak;
         if (middle < step.low || middle > step.peak) continue;
         add(surface.loading[bin]);

@@ -19,18 +19,22 @@ namespace {
 
 using settings::numberText;
 
+// In the order of Purpose.
 constexpr const char* kNames[] = {"per_curvature", "history", "discrepancy", "field_check"};
 
-/// Largest pressure of a part [Pa], and how many cycles or loops it has. Called by std::visit.
 struct Extent {
-  std::pair<double, double> operator()(const simulation::ChamberProtocol& part) const {
-    return {part.peak, part.cycles};
+  double highest;  // pressure [Pa]
+  double pieces;   // cycles, loops, holds or rests
+};
+
+/// Called by std::visit.
+struct ExtentOf {
+  Extent operator()(const simulation::ChamberProtocol& part) const {
+    return {part.peak, double(part.cycles)};
   }
-  std::pair<double, double> operator()(const simulation::HoldPart& part) const { return {part.pressure, 1}; }
-  std::pair<double, double> operator()(const simulation::LoopsPart& part) const {
-    return {part.high, part.loops};
-  }
-  std::pair<double, double> operator()(const simulation::RestPart&) const { return {0, 1}; }
+  Extent operator()(const simulation::HoldPart& part) const { return {part.pressure, 1}; }
+  Extent operator()(const simulation::LoopsPart& part) const { return {part.high, double(part.loops)}; }
+  Extent operator()(const simulation::RestPart&) const { return {0, 1}; }
 };
 
 // What a person at a rig can do. Also bounds the memory that a plan takes.
@@ -73,7 +77,7 @@ void requireProgram(const SessionPlan& plan) {
 
 void requireDoable(const SessionPlan& plan) {
   double pieces = 0;
-  for (const simulation::ProgramPart& part : plan.program) pieces += std::visit(Extent{}, part).second;
+  for (const simulation::ProgramPart& part : plan.program) pieces += std::visit(ExtentOf{}, part).pieces;
   pieces *= static_cast<double>(mountsOf(plan));
   if (pieces > kMostPieces) {
     refuse(plan, "the session has " + numberText(pieces) +
@@ -129,7 +133,7 @@ double bendOf(const matrix::Surface& surface) {
 double largestPeak(const SessionPlan& plan) {
   double peak = 0;
   for (const simulation::ProgramPart& part : plan.program)
-    peak = std::max(peak, std::visit(Extent{}, part).first);
+    peak = std::max(peak, std::visit(ExtentOf{}, part).highest);
   return peak;
 }
 

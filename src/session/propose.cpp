@@ -41,6 +41,7 @@ const PurposeTable& tableFor(Purpose purpose) {
       simulation::LoopsPart{200e3, 400e3, 17e3, 2}, simulation::RestPart{17e3, 10},
       ChamberProtocol{kFullPeak, 8e3, 8e3, 10, 10, 1}};
   static const PurposeTable table[] = {
+      // in the order of Purpose
       {// kPerCurvature
        5,
        {ChamberProtocol{kFullPeak, 17e3, 17e3, 1, 1, 10}},

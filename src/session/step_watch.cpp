@@ -159,7 +159,7 @@ class PeakWatch : public StepWatch {
   PeakWatch(const SessionStep& step, double base)
       : step_(step), tolerance_(std::max(step.peak_error, kRestLevel)), crossings_(base, step.peak) {}
 
-  // kNone accepts.
+  std::optional<Verdict> accept() { return Verdict{Reason::kNone, "", measured_}; }
   std::optional<Verdict> reject(Reason reason, const std::string& sentence) {
     return Verdict{reason, sentence, measured_};
   }
@@ -222,9 +222,9 @@ class HoldWatch : public PeakWatch {
     if (reading.pressure >= step_.peak - 0.5 * tolerance_) last_steady_ = reading.time;
     if (reading.pressure >= low_) {
       measured_.dwell = length;
-      return length >= step_.dwell_peak ? reject(Reason::kNone, "") : std::nullopt;
+      return length >= step_.dwell_peak ? accept() : std::nullopt;
     }
-    if (measured_.dwell >= step_.dwell_peak - step_.dwell_error) return reject(Reason::kNone, "");
+    if (measured_.dwell >= step_.dwell_peak - step_.dwell_error) return accept();
     // From half of the tolerance to all of it, at less than half of the pace of venting: not by the valve.
     const double fall = 0.5 * tolerance_ / std::max(reading.time - last_steady_, 1e-9);
     const std::string when = " after " + secondsText(length) + plannedText(secondsText(step_.dwell_peak));
@@ -382,7 +382,7 @@ class ExcursionWatch : public PeakWatch {
     if (measured_.dwell < step_.dwell_peak - step_.dwell_error) return reject(Reason::kDwellTooShort, dwell);
     if (measured_.dwell > step_.dwell_peak + step_.dwell_error) return reject(Reason::kDwellTooLong, dwell);
     const std::optional<Verdict> wrong = wrongPace(measured_.vent_rate, false);
-    return wrong ? wrong : reject(Reason::kNone, "");
+    return wrong ? wrong : accept();
   }
   bool leaked() const {
     if (!fallen_ || !(fallen_->time > left_)) return false;
