@@ -89,6 +89,42 @@ inline DiscrepancyProblem problem(const std::string& text, const std::string& mo
   return problem;
 }
 
+/// A reading that is changed.
+struct Changed {
+  std::size_t recording, scan, taxel;
+  double time;   ///< since the first scan of the first recording [s]
+  double whole;  ///< duration of all recordings [s]
+  double loads;  ///< path of the pressure in this recording / that of a cycle to the highest one
+  double count;
+};
+
+/// A rig whose readings are changed after the simulation: `count` is asked for each of them.
+template <typename Count>
+DiscrepancyProblem problemReading(const std::string& text, Count count) {
+  DiscrepancyProblem problem = planted::problem(text, "");
+  auto& recordings = problem.recordings;
+  const auto since = [&](const dataset::Recording& r, double time) {
+    return 1e-9 * static_cast<double>(r.start_ns - recordings.front().start_ns) + time;
+  };
+  const double whole = since(recordings.back(), recordings.back().time.back());
+  for (std::size_t r = 0; r < recordings.size(); ++r) {
+    dataset::Recording& recording = recordings[r];
+    const std::size_t taxels = recording.layout.size.taxels();
+    const double peak = *std::max_element(recording.pressure.begin(), recording.pressure.end());
+    double path = 0;
+    for (std::size_t i = 0; i < recording.scans(); ++i) {
+      if (i > 0) path += std::abs(recording.pressure[i] - recording.pressure[i - 1]) / (2 * peak);
+      for (std::size_t t = 0; t < taxels; ++t) {
+        auto& now = recording.counts[i * taxels + t];
+        const double changed =
+            count(Changed{r, i, t, since(recording, recording.time[i]), whole, path, double(now)});
+        now = static_cast<std::uint16_t>(std::clamp(std::lround(changed), 0L, 4095L));
+      }
+    }
+  }
+  return problem;
+}
+
 /// A rig whose matrix feels the chamber's pressure plus `more` [Pa]. `more` is a function of the pressure, as
 /// a share of 620 kPa, and of the direction. It plants forms that are not in the library.
 template <typename More>

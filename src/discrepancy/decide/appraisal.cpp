@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "discrepancy/decide/cycle_gains.h"
 #include "matrix/for_each_taxel.h"
 #include "statistics/random_stream.h"
 #include "statistics/samples.h"
@@ -15,6 +16,7 @@ using Index = Eigen::Index;
 
 constexpr double kNineOfTen = 1.2816;  // quantile of the normal distribution
 constexpr int kNoiseRounds = 3;        // of the noise under the best explanation
+constexpr double kHardly = 0.01;       // of the variances from cycle to cycle
 
 // Columns that are fitted together with the static curves.
 struct Chosen {
@@ -198,7 +200,19 @@ class Appraiser {
       result_.all[e].p = correctedChance(null, e, first_[e].total);
       result_.all[e].p_alone = chance(null.of[e], first_[e].total);
     }
+    testGains();
     listLeastSeen(scores);
+  }
+
+  // The second test of whether anything is missing (Bonferroni).
+  void testGains() {
+    const std::vector<double> by_gains =
+        chanceByGains(design_, explanations_, options_.null_draws, options_.seed);
+    for (std::size_t e = 0; e < by_gains.size(); ++e) {
+      const double p = std::min(1.0, 2 * by_gains[e]);
+      result_.all[e].p = std::min(result_.all[e].p, p);
+      result_.p = std::min(result_.p, p);
+    }
   }
 
   // A column of coefficient b adds b^2 I / 2 - 1/2 nats in the mean, with a standard deviation of b sqrt(I),
@@ -220,19 +234,57 @@ class Appraiser {
     }
   }
 
+  // Scores under the noise that is fitted together with the best explanation.
+  struct Settled {
+    std::vector<HeldOutScore> scores;
+    std::size_t best = 0;
+    double closable = 0;  // whitened loss
+    CycleNoise start;     // of the fits of the noise
+    double density = -INFINITY;
+  };
+
   // Under the noise of the null, slow noise takes a part of a strong effect. So the noise is fitted again
-  // together with the best explanation, until this stays the best, and then with each that comes near.
-  void weigh() {
-    std::vector<HeldOutScore> scores = first_;
-    std::size_t best = result_.best;
+  // together with the best explanation, until this stays the best.
+  Settled settle(const std::vector<HeldOutScore>& first, const CycleNoise& start) const {
+    Settled settled{first, bestOf(first), 0, start};
     for (int round = 0; round < kNoiseRounds; ++round) {
-      const HeldOutScores under = scored(noiseUnder(explanations_[best], scores[best]), model_, competing_);
-      scores = under.scores();
+      const std::size_t best = settled.best;
+      if (settled.scores[best].fit.variance == 0) return settled;
+      const CycleNoise noise = noiseUnder(explanations_[best], settled.scores[best], start);
+      const HeldOutScores under = scored(noise, model_, competing_);
+      settled.scores = under.scores();
+      settled.best = bestOf(settled.scores);
+      const HeldOutScore& score = settled.scores[settled.best];
       // What the best explanation closes can be closed.
-      closable_ = std::max({under.loss() - under.expectedLoss(), 2 * scores[bestOf(scores)].total, 1e-9});
-      if (bestOf(scores) == best) break;
-      best = bestOf(scores);
+      settled.closable = std::max({under.loss() - under.expectedLoss(), 2 * score.total, 1e-9});
+      settled.density = 0;
+      for (std::size_t c = 0; c < design_.cycles.size(); ++c)
+        settled.density += under.density(c, score.nats[c]);
+      if (settled.best == best) break;
     }
+    return settled;
+  }
+
+  // What changes from cycle to cycle alike on all mounts, noise with a gain of each cycle explains as well as
+  // an effect does. The noise is therefore also fitted from a start at which the cycles hardly differ.
+  CycleNoise withoutCycles() const {
+    CycleNoise noise = null_.noise;
+    for (const auto part : {CycleNoise::kCycleOffset, CycleNoise::kCycleGain, CycleNoise::kWanderingGain})
+      noise.variance[part] *= kHardly;
+    return noise;
+  }
+
+  // Each explanation that comes near the best one is weighed under a noise that is fitted together with it.
+  void weigh() {
+    Settled settled = settle(first_, null_.noise);
+    const CycleNoise still = withoutCycles();
+    Settled other = settle(scored(still, model_, competing_).scores(), still);
+      fprintf(stderr, "settle a %zu %.1f  b %zu %.1f\n", settled.best, settled.density, other.best,
+              other.density);
+    if (other.density > settled.density) settled = std::move(other);
+    const std::vector<HeldOutScore>& scores = settled.scores;
+    const std::size_t best = settled.best;
+    closable_ = settled.closable;
     const double least = options_.contender * scores[best].total;
     std::vector<std::size_t> contenders;
     for (std::size_t e = 0; e < explanations_.size(); ++e) {
@@ -243,7 +295,7 @@ class Appraiser {
       if (one.contends) contenders.push_back(e);
     }
     matrix::forEachTaxel(contenders.size(), options_.threads, [&](std::size_t k) {
-      weighAlone(result_.all[contenders[k]], scores[contenders[k]], null_.noise);
+      weighAlone(result_.all[contenders[k]], scores[contenders[k]], settled.start);
     });
     shareNoise(contenders);
     compareToNull(contenders);

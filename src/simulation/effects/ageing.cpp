@@ -7,11 +7,14 @@ namespace fsr::simulation {
 
 // The readings of the first cycles after mounting differ until the sheet has settled.
 //
-//     g = g (1 + a exp(-N / N_0)),   N = W / (2 P_span),   W = sum |dP| since it was mounted
+//     g = g (1 + a (1 + N / (k N_0))^-k),   N = (1 - q) W / (2 P_span) + q L
+//     since it was mounted:                 W = sum |dP|
 //
 // W is the path length of the pressure [Pa]. N is the number of cycles computed from it, so that a partial
-// cycle counts in part. Makers ask for conditioning for this reason: the manual of FlexiForce (rev. G) wants
-// 110 % of the load four or five times before use.
+// cycle counts in part, or the number L of completed loads, so that the gain steps from load to load.
+// k is infinite for an exponential; k = 1 is the hyperbola of a bedding that slows down as it goes on.
+// Makers ask for conditioning for this reason: the manual of FlexiForce (rev. G) wants 110 % of the load four
+// or five times before use.
 // Size: a few per cent, which fade within 3 to 10 cycles (estimate). The sign is free.
 
 namespace {
@@ -19,23 +22,53 @@ namespace {
 class BreakIn : public Effect {
  public:
   BreakIn(const EffectValues& values, const EffectContext&)
-      : change_(values.at("change")), path_length_(values.at("cycles") * 2 * values.at("span")) {
+      : change_(values.at("change")),
+        cycles_(values.at("cycles")),
+        tail_(values.at("tail")),
+        loads_share_(values.at("loads_share")),
+        span_(values.at("span")) {
     state_.assign(kState, 0.0);
   }
 
-  void mount(const Mounting&) override { state_[kPathLength] = 0; }
+  void mount(const Mounting&) override {
+    for (const auto part : {kPathLength, kHighest, kLowest, kLoads}) state_[part] = 0;
+  }
 
   void apply(const RigSample& sample, TaxelSignals& signals) override {
     if (!sample.first) state_[kPathLength] += std::abs(sample.pressure - state_[kBefore]);
     state_[kBefore] = sample.pressure;
-    const double factor = 1 + change_ * std::exp(-state_[kPathLength] / path_length_);
-    for (double& gain : signals.gain) gain *= factor;
+    countLoads(sample.pressure);
+    const double by_path = state_[kPathLength] / (2 * span_);
+    const double number = by_path + loads_share_ * (state_[kLoads] - by_path);
+    const double left =
+        std::isinf(tail_) ? std::exp(-number / cycles_) : std::pow(1 + number / (tail_ * cycles_), -tail_);
+    for (double& gain : signals.gain) gain *= 1 + change_ * left;
   }
 
  private:
-  enum { kBefore, kPathLength, kState };  // chamber at the scan before, W [Pa]
+  // Chamber at the scan before, W, highest pressure of this load, lowest since it was half taken off (0 while
+  // it is not) [Pa]; number of completed loads.
+  enum { kBefore, kPathLength, kHighest, kLowest, kLoads, kState };
+  static constexpr double kRise = 0.05;  // of the highest pressure or of the span: the next load has begun
+
+  // A load is complete when the pressure rises again after at least half of it was taken off.
+  void countLoads(double pressure) {
+    double& highest = state_[kHighest];
+    double& lowest = state_[kLowest];
+    highest = std::max(highest, pressure);
+    if (highest < kRise * span_ || (lowest == 0 && pressure > highest / 2)) return;
+    lowest = lowest == 0 ? std::max(pressure, 1.0) : std::min(lowest, std::max(pressure, 1.0));
+    if (pressure < lowest + kRise * highest) return;
+    state_[kLoads] += 1;
+    highest = pressure;
+    lowest = 0;
+  }
+
   double change_;
-  double path_length_;  // W that leaves 37 % [Pa]
+  double cycles_;       // N_0
+  double tail_;         // k
+  double loads_share_;  // q
+  double span_;         // [Pa]
 };
 
 }  // namespace
@@ -44,14 +77,16 @@ EffectEntry breakIn() {
   EffectInfo info;
   info.id = "break_in";
   info.summary = "the first cycles after mounting differ";
-  info.equation = "g *= 1 + a exp(-N / N_0), N cycles since mounting";
+  info.equation = "g *= 1 + a (1 + N / (k N_0))^-k, N cycles since mounting";
   info.source = "FlexiForce manual: condition four or five times; size estimated";
   info.stage = ChainStage::kGain;
   info.level = EffectLevel::kMount;
   info.kind = EffectKind::kGrid;
   info.parameters = {
       strength("change", "a, at the start", {-0.5, 0.5, ""}, -0.04).within(-0.12, 0.12),
-      shape("cycles", "N_0, that leave 37 % of it", {0.1, 1000, "cycles"}, 2).trying({1, 2, 4}),
+      shape("cycles", "N_0, how fast it settles", {0.1, 1000, "cycles"}, 2).trying({0.3, 1, 2, 4}),
+      shape("tail", "k, .inf = exponential", {0.5, INFINITY, ""}, INFINITY).trying({1, INFINITY}),
+      shape("loads_share", "q, 0 = path, 1 = completed loads", {0, 1, ""}, 0).trying({0, 1}),
       shape("span", "P_span, peak of a whole cycle", {1e3, 10e6, "Pa"}, 620e3),
   };
   info.sign = SignRule::kEither;
