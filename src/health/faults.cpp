@@ -37,6 +37,12 @@ constexpr double kOutside = 0.05;
 // Share of a taxel's squared error that its kind must account for.
 constexpr double kOfOneKind = 0.7;
 
+// A taxel that fades: parts of a stay whose gains are compared, least loss over a stay, and tried durations.
+constexpr std::size_t kParts = 4;
+constexpr double kFades = 0.03;
+constexpr double kTells = 0.1;  // of the largest sum of squared expected readings of a part
+constexpr int kTriedDurations = 60;
+
 // Share of the squared deviations of a line that the direction explains at the same reading. A line that does
 // the same in every cycle has a loop or a lag; a contact fails at any time.
 constexpr double kLoop = 0.3;
@@ -173,12 +179,28 @@ double boundary(const Stay& stay, std::size_t scan) {
   return scan == 0 ? std::max(0.0, stay.time(0) - 1e-3) : (stay.time(scan - 1) + stay.time(scan)) / 2;
 }
 
+// How a taxel fades: since when, and until nothing would be left [s].
+struct Fade {
+  double start = 0, lasts = 0;
+};
+
+// Gain of a taxel in a part of a stay, against what is expected of it in that stay.
+struct PartGain {
+  std::size_t stay = 0;
+  double time = 0;  // [s]
+  double gain = 1;
+  double weight = 0;   // sum of the squared expected readings
+  double squares = 0;  // of the deviations
+  double left = 0;     // of the deviations from the gain
+};
+
 // A taxel that fails.
 struct FailingTaxel {
   std::size_t taxel = 0;
-  std::optional<FaultKind> kind;  // none: it is neither dead nor stuck
+  std::optional<FaultKind> kind;  // none: it is not known how it fails
   double p = 1;
   Spells spells;
+  Fade fade;
 };
 
 // A row or column.
@@ -188,6 +210,21 @@ struct Line {
   std::vector<std::size_t> beside;  // indices of the lines beside it
   double noise = INFINITY;          // of its contrast, per noise of a taxel
 };
+
+// Weighted squared error of a fade, each stay with the factor that fits best.
+double errorOf(const std::vector<PartGain>& gains, const Fade& fade) {
+  std::map<std::size_t, std::array<double, 3>> sums;  // of each stay: gain squared, product, model squared
+  for (const PartGain& part : gains) {
+    const double model = std::clamp(1 - (part.time - fade.start) / fade.lasts, 0.0, 1.0);
+    std::array<double, 3>& sum = sums[part.stay];
+    sum[0] += part.weight * part.gain * part.gain;
+    sum[1] += part.weight * part.gain * model;
+    sum[2] += part.weight * model * model;
+  }
+  double error = 0;
+  for (const auto& [stay, sum] : sums) error += sum[0] - (sum[2] > 0 ? sum[1] * sum[1] / sum[2] : 0);
+  return error;
+}
 
 class FaultSearch {
  public:
@@ -209,6 +246,8 @@ class FaultSearch {
   Course courseOf(std::size_t taxel) const;
   void join(std::size_t taxel, Spells& spells) const;
   std::optional<FaultKind> kindOf(std::size_t taxel, const Spells& spells) const;
+  std::vector<PartGain> gainsOf(std::size_t taxel) const;
+  std::optional<Fade> fadeOf(std::size_t taxel) const;
   std::vector<FailingTaxel> failingTaxels() const;
   bool findLine(const std::vector<FaultKind>& kinds);
   void joinLines(FaultKind kind, const std::vector<FailingTaxel>& failing);
@@ -416,6 +455,68 @@ std::optional<FaultKind> FaultSearch::kindOf(std::size_t taxel, const Spells& sp
   return dead > stuck ? FaultKind::kDeadTaxels : FaultKind::kStuckTaxels;
 }
 
+std::vector<PartGain> FaultSearch::gainsOf(std::size_t taxel) const {
+  std::vector<PartGain> gains;
+  for (std::size_t v = 0; v < courses_.size(); ++v) {
+    const StayCourses& stay = courses_[v];
+    TaxelCourse course(stay, taxel);
+    for (std::size_t part = 0; part < kParts; ++part) {
+      const std::size_t from = part * stay.scans() / kParts, to = (part + 1) * stay.scans() / kParts;
+      if (from == to) continue;
+      PartGain now{v, stay.stay->time((from + to) / 2)};
+      double product = 0;
+      for (std::size_t i = from; i < to; ++i) {
+        const double expected = stay.expected(taxel, i), deviates = course.deviates(i);
+        now.weight += expected * expected;
+        product += expected * deviates;
+        now.squares += deviates * deviates;
+      }
+      if (!(now.weight > 0)) continue;
+      now.gain = 1 + product / now.weight;
+      now.left = now.squares - product * product / now.weight;
+      gains.push_back(now);
+    }
+  }
+  // Where nearly nothing is left, it has no gain that could be lost.
+  const auto by_weight = [](const PartGain& a, const PartGain& b) { return a.weight < b.weight; };
+  const auto most = std::max_element(gains.begin(), gains.end(), by_weight);
+  const double least = most == gains.end() ? 0 : kTells * most->weight;
+  gains.erase(std::remove_if(gains.begin(), gains.end(), [&](const PartGain& g) { return g.weight < least; }),
+              gains.end());
+  return gains;
+}
+
+// Whether a taxel loses gain from part to part of each stay, or of those after it began to, and how fast: the
+// gain 1 - (t - start) / lasts fits best, with a factor for each stay, because a change of mount is no fault.
+std::optional<Fade> FaultSearch::fadeOf(std::size_t taxel) const {
+  const std::vector<PartGain> gains = gainsOf(taxel);
+  double squares = 0, left = 0;
+  bool lost = false;
+  for (std::size_t k = 0; k < gains.size(); ++k) {
+    squares += gains[k].squares;
+    left += gains[k].left;
+    if (k == 0 || gains[k].stay != gains[k - 1].stay) continue;
+    lost = lost || gains[k].gain < gains[k - 1].gain - kFades;
+    if (gains[k].gain > gains[k - 1].gain + kFades / kParts) return {};
+  }
+  if (!lost || left > (1 - kOfOneKind) * squares) return {};
+  const double first = sheet_.stays.front().time(0);
+  const double whole = gains.back().time - first;
+  Fade best;
+  double least = INFINITY;
+  for (std::size_t b = 0; b < gains.size(); ++b) {
+    const double start = b == 0 ? first : gains[b - 1].time;
+    for (int d = 0; d < kTriedDurations; ++d) {
+      const double lasts = 0.1 * whole * std::pow(10, 2.0 * d / kTriedDurations);
+      const double error = errorOf(gains, {start, lasts});
+      if (error >= least) continue;
+      least = error;
+      best = {start, lasts};
+    }
+  }
+  return best;
+}
+
 std::vector<FailingTaxel> FaultSearch::failingTaxels() const {
   std::size_t longest = 0;
   for (const StayCourses& stay : courses_) longest = std::max(longest, stay.scans());
@@ -429,7 +530,12 @@ std::vector<FailingTaxel> FaultSearch::failingTaxels() const {
     if (!outlier.span) continue;
     Spells spells = spellsOf(courseOf(taxel), spans[*outlier.span], outlier.limit);
     join(taxel, spells);
-    failing.push_back({taxel, kindOf(taxel, spells), outlier.p, spells});
+    failing.push_back({taxel, kindOf(taxel, spells), outlier.p, spells, {}});
+    const std::optional<Fade> fade = failing.back().kind ? std::nullopt : fadeOf(taxel);
+    if (!fade) continue;
+    failing.back().kind = FaultKind::kFadingTaxels;
+    failing.back().fade = *fade;
+    for (std::vector<bool>& stay : failing.back().spells) stay.assign(stay.size(), true);
   }
   return failing;
 }
@@ -590,15 +696,21 @@ Faults FaultSearch::run(const FaultProgress& progress) {
   tell(0.8);
   const std::vector<FailingTaxel> failing = failingTaxels();
   for (const FaultKind kind : {FaultKind::kRow, FaultKind::kColumn}) joinLines(kind, failing);
-  for (const FaultKind kind : {FaultKind::kStuckTaxels, FaultKind::kDeadTaxels}) {
+  for (const FaultKind kind : {FaultKind::kStuckTaxels, FaultKind::kDeadTaxels, FaultKind::kFadingTaxels}) {
     Members members;
+    std::vector<TaxelSpell> fading;
+    std::vector<double> lasts;
     double p = 1;
     for (const FailingTaxel& one : failing) {
       if (one.kind != kind || !isSound(one.taxel)) continue;
       members[one.taxel] = one.spells;
+      fading.push_back({one.taxel, one.fade.start, INFINITY, 0});
+      lasts.push_back(one.fade.lasts);
       p = std::min(p, one.p);
     }
-    if (!members.empty()) keep(kind, p, members);
+    if (members.empty() || !keep(kind, p, members) || kind != FaultKind::kFadingTaxels) continue;
+    faults_.faults.back().spells = fading;
+    faults_.faults.back().fades_over = statistics::upperMedian(lasts);
   }
   tell(1);
   return std::move(faults_);

@@ -31,7 +31,7 @@ struct Sheet {
   std::vector<bool> used;  ///< of each taxel
 };
 
-enum class FaultKind { kStuckTaxels, kDeadTaxels, kRow, kColumn };
+enum class FaultKind { kStuckTaxels, kDeadTaxels, kFadingTaxels, kRow, kColumn };
 
 /// A time in which a taxel fails. It goes on until the taxel has another reading.
 struct TaxelSpell {
@@ -50,7 +50,8 @@ struct Fault {
   double longest = 0;                            ///< longest spell [s]
   std::vector<std::pair<double, double>> times;  ///< start and end of each spell, since the first scan [s]
   std::vector<TaxelSpell> spells;                ///< of each of its taxels, unless a line fails
-  double p = 1;                                  ///< of its test, corrected for all taxels or lines
+  double fades_over = 0;  ///< of taxels that fade: from the start until nothing is left [s]
+  double p = 1;           ///< of its test, corrected for all taxels or lines
 
   bool isLine() const { return kind == FaultKind::kRow || kind == FaultKind::kColumn; }
 };
@@ -79,6 +80,8 @@ using FaultProgress = std::function<void(double share)>;
 /// are not in the line. The logarithms follow Gumbel's distribution (E. Gumbel, Statistics of extremes,
 /// 1958), whose parameters are the median and the quartiles over the taxels. A line also fails where all its
 /// taxels fail at the same time.
+///
+/// A taxel that is neither fades where it loses gain in every stay, evenly over time.
 ///
 /// A failing taxel is named only where the rule of TaxelWatch (verdictOf()) calls it dead or stuck in its
 /// spells, with what is expected of it in place of its neighbours.

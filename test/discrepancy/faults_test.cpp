@@ -31,6 +31,32 @@ TEST(Faults, ADeadTaxelIsNoStuckOne) {
   EXPECT_LE(faults[0].p, 0.01);
 }
 
+health::Fault fading(double (*left)(double share)) {
+  const std::vector<health::Fault> faults =
+      faultsOf(planted::problemReading(planted::kTwoSpeeds, [&](const planted::Changed& now) {
+        return now.taxel == 5 ? now.count * left(now.time / now.whole) : now.count;
+      }));
+  return faults.size() == 1 ? faults[0] : health::Fault();
+}
+
+TEST(Faults, ATaxelThatFadesToNothingIsDeadByThen) {
+  const health::Fault fault = fading([](double share) { return std::max(0.0, 1 - 2 * share); });
+  ASSERT_EQ(fault.taxels, std::vector<std::size_t>{5});
+  EXPECT_EQ(effectOf(fault).id, "dead_taxel");
+  EXPECT_NEAR(fault.fades_over, 1518, 150);
+}
+
+TEST(Faults, ATaxelThatFadesLessAndLessIsFound) {
+  const health::Fault fault = fading([](double share) { return std::exp(-1.2 * share); });
+  ASSERT_EQ(fault.taxels, std::vector<std::size_t>{5});
+  EXPECT_EQ(effectOf(fault).id, "dead_taxel");
+  EXPECT_GT(fault.fades_over, 3036) << "something is left at the end";
+}
+
+TEST(Faults, ATaxelThatGainsDoesNotFade) {
+  EXPECT_TRUE(fading([](double share) { return 0.8 + 0.2 * share; }).taxels.empty());
+}
+
 TEST(Faults, ALineIsFoundWithItsSpells) {
   const std::vector<health::Fault> faults = faultsOf(
       planted::problem(planted::kTwoSpeeds, "  row_fault: {share: 0.04, line: 1, burst: 3, depth: 0.7}\n"));

@@ -103,6 +103,7 @@ const simulation::EffectInfo& effectOf(const health::Fault& fault) {
     case health::FaultKind::kStuckTaxels:
       return simulation::foundBy(Detector::kStuckTaxels);
     case health::FaultKind::kDeadTaxels:
+    case health::FaultKind::kFadingTaxels:
       return simulation::foundBy(Detector::kDeadTaxels);
     case health::FaultKind::kRow:
       return simulation::foundBy(Detector::kRowFaults);

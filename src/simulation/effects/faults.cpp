@@ -116,27 +116,30 @@ double LooseLine::contact(double time) const {
 
 }  // namespace
 
-// A taxel has no contact.
+// A taxel has no contact, or loses it in the course of a time T_f.
 //
-//     G_i = 0 from a start time on
+//     G_i = G_i max(0, 1 - (t - t_0) / T_f) from a start time t_0 on;   G_i = 0 for T_f = 0
 //
-// Causes: a cracked trace, a detached layer.
+// Causes: a cracked trace, a detached layer; a contact that corrodes.
 
 namespace {
 
 class DeadTaxel : public Effect {
  public:
   DeadTaxel(const EffectValues& values, const EffectContext& context)
-      : spells_(faultSpells("dead_taxel", values, context)) {}
+      : spells_(faultSpells("dead_taxel", values, context)), fades_over_(values.at("fades_over")) {}
 
   void apply(const RigSample& sample, TaxelSignals& signals) override {
     for (const FaultSpell& spell : spells_) {
-      if (isIn(spell, sample.time)) signals.conductance[spell.taxel] = 0;
+      if (!isIn(spell, sample.time)) continue;
+      const double since = sample.time - spell.from;
+      signals.conductance[spell.taxel] *= since < fades_over_ ? 1 - since / fades_over_ : 0;
     }
   }
 
  private:
   std::vector<FaultSpell> spells_;
+  double fades_over_;  // T_f [s]
 };
 
 }  // namespace
@@ -144,13 +147,14 @@ class DeadTaxel : public Effect {
 EffectEntry deadTaxel() {
   EffectInfo info;
   info.id = "dead_taxel";
-  info.summary = "a taxel that conducts nothing";
-  info.equation = "G_i = 0";
+  info.summary = "a taxel that conducts nothing, or less and less";
+  info.equation = "G_i *= max(0, 1 - (t - t_0) / T_f); G_i = 0 for T_f = 0";
   info.source = "fault";
   info.stage = ChainStage::kConductance;
   info.level = EffectLevel::kTaxel;
   info.kind = EffectKind::kDetector;
   info.parameters = faultyTaxelParameters();
+  info.parameters.push_back(shape("fades_over", "T_f; 0 = at once", {0, 1e9, "s"}, 0));
   info.depends_on = {Covariate::kTaxel};
   info.collinear = {"stuck_taxel"};
   info.detector = Detector::kDeadTaxels;
