@@ -99,6 +99,8 @@ struct Line {
   double turn = 0, excess = 0, usual = 0;
   double height = 0;      // one-sided power of the strongest line / mean power of all frequencies
   double p_standing = 1;  // that a pattern that does not move has such a line
+  double both_sides = 0;  // power of the strongest line, both sides together / mean power
+  double frequency = 0;   // of that line [1 / sample], positive
 };
 
 // exp(2 pi j f i) of the frequencies 0 .. kLongestPart / 2, [samples x frequencies].
@@ -160,7 +162,53 @@ Line strongest(const Courses& courses, const Eigen::MatrixXd& covariance, const 
       static_cast<double>(std::max(forth[at], back[at]) / std::max(1e-30F, std::min(forth[at], back[at])));
   line.p_standing =
       std::min(1.0, static_cast<double>(2 * forth.size()) * beyondRatio(ratio, courses.parts.size()));
+  line.both_sides = mean > 0 ? static_cast<double>((forth + back).maxCoeff(&at) / mean) : 0;
+  line.frequency = static_cast<double>(at) / static_cast<double>(kLongestPart);
   return line;
+}
+
+// Takes out of the residuals what is any function of the row plus any of the column, or the smooth product of
+// both: what rows, columns, bending or an edge do. False where too few directions are left.
+bool takeOutPlaces(const SheetResiduals& residuals, const matrix::Layout& layout, Courses& courses) {
+  const auto n = static_cast<Eigen::Index>(residuals.size());
+  const auto rows = static_cast<Eigen::Index>(layout.size.rows);
+  const auto columns = static_cast<Eigen::Index>(layout.size.columns);
+  Eigen::MatrixXd places = Eigen::MatrixXd::Zero(n, rows + columns + 3);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const matrix::TaxelIndex taxel{static_cast<std::size_t>(residuals.place(static_cast<std::size_t>(k)))};
+    const auto row = static_cast<Eigen::Index>(layout.row(taxel));
+    const auto column = static_cast<Eigen::Index>(layout.column(taxel));
+    places(k, row) = places(k, rows + column) = 1;
+    const double r = static_cast<double>(row) - static_cast<double>(rows - 1) / 2;
+    const double c = static_cast<double>(column) - static_cast<double>(columns - 1) / 2;
+    places.row(k).tail(3) << r * c, r * r * c, r * c * c;
+  }
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(places);
+  if (n - qr.rank() < static_cast<Eigen::Index>(kFewestTaxels)) return false;
+  const Eigen::MatrixXf basis = (qr.householderQ() * Eigen::MatrixXd::Identity(n, qr.rank())).cast<float>();
+  courses.residual -= (courses.residual * basis).eval() * basis.transpose();
+  return true;
+}
+
+// Probability that the taxels in any other order have such a line. `score`: of a line.
+template <typename Score>
+double chanceOfOrders(const Courses& courses, const Eigen::MatrixXd& covariance,
+                      const SheetResiduals& residuals, const std::vector<Eigen::VectorXcd>& patterns,
+                      const std::vector<double>& turns, const DiscrepancyOptions& options, Score score) {
+  std::vector<Eigen::Index> order(residuals.size());
+  std::iota(order.begin(), order.end(), 0);
+  const double own = score(strongest(courses, covariance, residuals, patterns, turns, order));
+  std::size_t beyond = 0, draws = 0;
+  while (draws < options.null_draws) {
+    const statistics::RandomStream stream = statistics::randomStream(options.seed, "hum", draws);
+    for (std::size_t k = order.size(); k-- > 1;)
+      std::swap(order[k], order[static_cast<std::size_t>(stream.uniform(k) * static_cast<double>(k + 1))]);
+    beyond += score(strongest(courses, covariance, residuals, patterns, turns, order)) >= own;
+    ++draws;
+    // No further draw can bring it below the level.
+    if (static_cast<double>(1 + beyond) > options.level * static_cast<double>(options.null_draws + 1)) break;
+  }
+  return static_cast<double>(1 + beyond) / static_cast<double>(draws + 1);
 }
 
 }  // namespace
@@ -190,20 +238,20 @@ Mains findMains(const Measured& measured, const StaticFit& fit, const TaxelFit& 
   const double slope = fit.netCurve().maxCoeff() / std::max(1.0, *high - *low);
   mains.at_map = slope > 0 ? mains.amplitude / std::sqrt(2) / slope : 0;
   if (mains.at_map < leastGap(measured, options)) return mains;
-  std::size_t beyond = 0, draws = 0;
-  for (; draws < options.null_draws; ++draws) {
-    const statistics::RandomStream stream = statistics::randomStream(options.seed, "hum", draws);
-    for (std::size_t k = order.size(); k-- > 1;)
-      std::swap(order[k], order[static_cast<std::size_t>(stream.uniform(k) * static_cast<double>(k + 1))]);
-    const Line other = strongest(courses, covariance, residuals, patterns, turns, order);
-    beyond += other.height * other.excess >= line.height * line.excess;
-    // No further draw can bring it below the level.
-    if (static_cast<double>(1 + beyond) > options.level * static_cast<double>(options.null_draws + 1)) {
-      ++draws;
-      break;
-    }
+  mains.p = chanceOfOrders(courses, covariance, residuals, patterns, turns, options,
+                           [](const Line& one) { return one.height * one.excess; });
+  bool standing = mains.p <= options.level && line.p_standing > options.level;
+  if (standing) {
+    Courses placeless = courses;
+    standing = takeOutPlaces(residuals, measured.layout, placeless);
+    const Eigen::MatrixXd left = (placeless.residual.transpose() * placeless.residual).cast<double>() /
+                                 static_cast<double>(measured.samples());
+    if (standing)
+      mains.p =
+          std::max(mains.p, chanceOfOrders(placeless, left, residuals, patterns, turns, options,
+                                           [](const Line& one) { return one.both_sides * one.excess; }));
   }
-  mains.p = std::max(line.p_standing, static_cast<double>(1 + beyond) / static_cast<double>(draws + 1));
+  if (!standing) mains.p = std::max(mains.p, line.p_standing);
   mains.found = mains.p <= options.level;
   if (!mains.found) return mains;
   const Eigen::VectorXcd pattern = patternOf(residuals, mains.turn);
@@ -226,7 +274,7 @@ Mains findMains(const Measured& measured, const StaticFit& fit, const TaxelFit& 
     before = z;
   }
   mains.rate = seconds > 0 ? steps / seconds : 0;
-  mains.beat = std::arg(turned) / (2 * M_PI) * mains.rate;
+  mains.beat = standing ? line.frequency * mains.rate : std::arg(turned) / (2 * M_PI) * mains.rate;
   return mains;
 }
 
@@ -313,6 +361,7 @@ simulation::EnabledEffect asEffect(const health::Fault& fault) {
   set("line", static_cast<double>(fault.line));
   set("share", fault.share);
   set("depth", fault.depth);
+  set("fades_over", fault.fades_over);
   double seconds = 0;
   for (const auto& [from, to] : fault.times) seconds += to - from;
   set("burst", seconds / static_cast<double>(fault.times.size()));
