@@ -34,7 +34,7 @@ double HistoryErrors::level(std::size_t number) const {
 
 void HistoryErrors::add(const Reading& reading) {
   const double before = reading.static_answer - reading.truth, error = reading.answer - reading.truth;
-  const double beyond = std::sqrt(std::max(error * error - reading.open * reading.open, 0.0));
+  const double beyond = withoutOpen(std::abs(error), reading.open);
   const double share = std::max(beyond / (highest_ * kSmallest), 1.0);
   const double at = std::log(share) / std::log(1 / kSmallest) * static_cast<double>(kLevels - 1);
   const auto place = static_cast<std::size_t>(std::min(at, static_cast<double>(kLevels - 1)));

@@ -31,6 +31,7 @@ HistoryFamily historyFromName(const std::string& name) {
 namespace {
 
 constexpr double kLargest = 1e30;  // answer [Pa]; a map holds no infinite pressure
+constexpr double kBeyond = 0.8;    // see withOpen()
 
 std::vector<double> weightsOf(const HistoryModel& model) {
   std::vector<double> weights = model.play_weight;
@@ -69,6 +70,15 @@ OpenDeviation::OpenDeviation(std::vector<double> weights, const std::vector<doub
     whole += each_[k] * (k < plays ? radii[k] : 1);
   }
   if (whole > 0) per_whole_ = 1 / whole;
+}
+
+double withOpen(double settled, double open) {
+  return std::max(std::sqrt(settled * settled + open * open), open + kBeyond * settled);
+}
+
+double withoutOpen(double error, double open) {
+  if (error <= open) return 0;
+  return std::min(std::sqrt(error * error - open * open), (error - open) / kBeyond);
 }
 
 HistoryState::HistoryState(const HistoryModel& model, std::size_t taxels)
@@ -149,8 +159,9 @@ HistoryAnswer HistoryState::correct(std::size_t taxel, bool frozen, float& press
   pressure = static_cast<float>(corrected);
   const bool unloading = !weights_.empty() && state[0] > x;
   const double settled = unloading ? unloading_deviation_(corrected) : loading_deviation_(corrected);
-  deviation = static_cast<float>(own.open ? std::hypot(settled, unknown) : settled);
-  return isSettled(settled, unknown) ? HistoryAnswer::kSettled : HistoryAnswer::kOpen;
+  const double stated = own.open ? withOpen(settled, unknown) : settled;
+  deviation = static_cast<float>(stated);
+  return stated <= 2 * settled ? HistoryAnswer::kSettled : HistoryAnswer::kOpen;
 }
 
 }  // namespace fsr::calibration
