@@ -69,7 +69,7 @@ effects:
   converter: {}
 )";
   std::size_t left_out = 0;
-  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 8 && left_out == 0; ++seed) {
     DiscrepancyProblem uneven = planted::problem(kUneven, "");
     uneven.options.seed = seed;
     const DiscrepancyReport report = investigate(uneven);
