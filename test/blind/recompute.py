@@ -12,7 +12,6 @@ import struct
 import subprocess
 
 import numpy
-import rosbag
 
 FRAME, INFO = "fsr_pressure_map/MatrixFrame", "fsr_pressure_map/MatrixInfo"
 ROUNDING = 1000  # of stamps that YAML reads as floating point numbers [ns]
@@ -32,6 +31,7 @@ class Scans:
     """The scans of one bag: stamps [ns], counts [scans x taxels], full scale, and which taxels are in use."""
 
     def __init__(self, path):
+        import rosbag  # not above: it takes longer than all else that the scripts import
         self.path = pathlib.Path(path)
         stamps, rows, self.full_scale, mask = [], [], None, b""
         with rosbag.Bag(str(path)) as bag:
@@ -122,6 +122,11 @@ def gap_of(command, simulation, runs, cycles, work, environment):
     return (total / readings)**0.5, scans
 
 
+def bag_error():
+    from rosbag import ROSBagException
+    return ROSBagException
+
+
 def recompute(command, bags, verdict, found, work, environment=None):
     """{before, after, scans} [share of full scale], or {problem}. `bags` are paths, `found` the folder of the verdict."""
     try:
@@ -138,7 +143,7 @@ def recompute(command, bags, verdict, found, work, environment=None):
         return result
     except NotRecomputable as why:
         return {"problem": str(why)}
-    except (rosbag.ROSBagException, OSError, KeyError, TypeError, ValueError, struct.error) as error:
+    except (bag_error(), OSError, KeyError, TypeError, ValueError, struct.error) as error:
         return {"problem": "%s: %s" % (type(error).__name__, error)}
 
 

@@ -257,20 +257,18 @@ class Trials(unittest.TestCase):
             self.assertIn(said, done.stderr)
         self.assertIn("--shard I/N", self.run_trials("none", "--help").stdout)
 
-    def test_says_what_the_fixed_campaign_lacks(self):
-        done = self.run_trials("none", grid=["--fixed"])  # this generator refuses the repositioning and has a class `short`
-        self.assertEqual(done.returncode, 1)
-        self.assertIn("the fixed campaign lacks short, repositioning; change", done.stderr)
-        self.assertEqual(self.run_trials("none", "--shard", "1/2", grid=["--fixed"]).returncode, 0)  # a part need not hold all
-
-    def test_the_fixed_campaign_fails_beyond_its_bounds(self):
+    def test_the_fixed_campaign_fails_beyond_its_bounds_and_where_it_lacks_a_class_or_an_effect(self):
         always_named = self.run_trials("wear", grid=["--fixed"])
         self.assertEqual(always_named.returncode, 1)
         for figure in ("nothing hidden, false alarms: 8 of 8", "something hidden, wrong name", "could be told, any size, right"):
             self.assertIn("beyond its bounds: " + figure, always_named.stderr)
-        silent = self.run_trials("none", "--retry-failed", grid=["--fixed", "--output", str(self.output) + "_silent"])
+        self.output = self.output.with_name("silent")
+        silent = self.run_trials("none", grid=["--fixed"])  # this generator refuses the repositioning and has a class `short`
+        self.assertEqual(silent.returncode, 1)
         self.assertNotIn("false alarms", silent.stderr)
         self.assertIn("beyond its bounds: could be told, any size, right: 0 of ", silent.stderr)
+        self.assertIn("the fixed campaign lacks short, repositioning; change", silent.stderr)
+        self.assertEqual(self.run_trials("none", "--shard", "1/2", grid=["--fixed"]).returncode, 0)  # a part need not hold all
 
     def test_the_fixed_campaign_names_each_case_once(self):
         names = [n for n in (HERE / "fixed_campaign.txt").read_text().split("\n") if n and not n.startswith("#")]

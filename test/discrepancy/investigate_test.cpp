@@ -5,8 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
-#include "discrepancy/planted.h"
+#include "discrepancy/answer.h"
 #include "discrepancy/prove/next_experiment.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "simulation/session.h"
@@ -14,10 +15,13 @@
 
 namespace {
 
+using fsr::discrepancy::answerTo;
 using fsr::discrepancy::DiscrepancyProblem;
 using fsr::discrepancy::DiscrepancyReport;
 using fsr::discrepancy::Verdict;
+using Ids = std::vector<std::string>;
 
+using fsr::discrepancy::kNoise;
 using fsr::discrepancy::planted::kOneSpeed;
 using fsr::discrepancy::planted::simulation;
 
@@ -45,12 +49,20 @@ double valueOf(const DiscrepancyReport& report, const std::string& parameter) {
   return -1;
 }
 
+// The gap is the noise, the floor as well, and no share of it is closed.
 TEST(Investigate, IsSilentWhereNothingIsHidden) {
-  for (const std::string& text : {kTwoSpeeds, std::string(kOneSpeed)}) {
-    const DiscrepancyReport report = investigate(planted(text, ""));
+  for (const std::string& text : {fsr::discrepancy::planted::kTwoSpeeds, std::string(kOneSpeed)}) {
+    const DiscrepancyReport report = answerTo(planted(text, ""));
     EXPECT_EQ(report.verdict, Verdict::kNone) << report.sentence;
     EXPECT_TRUE(report.effects.empty());
+    EXPECT_TRUE(std::isnan(report.at_map));
+    EXPECT_EQ(report.scatter.size(), 3u);
+    EXPECT_NEAR(report.gap.before, kNoise, 0.05 * kNoise);
     EXPECT_EQ(report.gap.before, report.gap.after);
+    EXPECT_NEAR(report.gap.floor_bracket.low, kNoise, 0.05 * kNoise);
+    EXPECT_NEAR(report.gap.floor_bracket.high, kNoise, 0.1 * kNoise);
+    EXPECT_TRUE(std::isnan(report.gap.closed));
+    EXPECT_TRUE(std::isnan(report.gap.closed_interval.low));
     const auto& seen = report.smallest_seen;
     const auto loop =
         std::find_if(seen.begin(), seen.end(), [](const auto& s) { return s.id == "hysteresis"; });
@@ -59,55 +71,88 @@ TEST(Investigate, IsSilentWhereNothingIsHidden) {
   }
 }
 
-TEST(Investigate, NamesALateClockAndByHowMuch) {
-  const DiscrepancyReport report = investigate(planted(kTwoSpeeds, "  time_skew: {delay: 0.25}\n"));
+// A loop holds on surfaces and speeds that it was not sized on.
+TEST(Investigate, NamesALoopAndAnswersTheQuestionsOfTheUser) {
+  DiscrepancyProblem problem =
+      planted(fsr::discrepancy::planted::kTwoSpeeds, "  hysteresis: {loop_width: 0.05}\n");
+  problem.options.ask = {"crosstalk", "hysteresis", "time_skew", "white_noise"};
+  const DiscrepancyReport report = answerTo(problem);
   ASSERT_EQ(report.verdict, Verdict::kNamed) << report.sentence;
-  EXPECT_EQ(report.effects.at(0).id, "time_skew");
-  EXPECT_NEAR(valueOf(report, "delay"), 0.25, 0.02);
+  EXPECT_GT(report.at_map, report.least_gap);
+  Ids answers;
+  for (const fsr::discrepancy::Answer& answer : report.answers) answers.push_back(answer.answer);
+  EXPECT_EQ(answers, (Ids{"not_identifiable", "found", "excluded", "in_simulation"}));
+  EXPECT_GT(report.answers.at(2).at_map, 0);
+  EXPECT_NEAR(report.gap.after, kNoise, 0.05 * kNoise);
+  EXPECT_NEAR(report.gap.closed, 1, 0.01);
+  EXPECT_EQ(report.gap.left_out, 0u);
+  ASSERT_EQ(report.gap.covered.size(), 3u);
+  EXPECT_NEAR(report.gap.covered[0].pressure.high, 620e3, 3e3);
+  EXPECT_EQ(report.gap.held_out_by, (Ids{"cycles", "condition", "protocol"}));
+  EXPECT_TRUE(report.gap.missing.empty());
+  ASSERT_EQ(report.gap.foretold.size(), 2u);
+  for (const fsr::discrepancy::HeldOutGap& held : report.gap.foretold) {
+    EXPECT_GT(held.closed, 0.9) << held.by;
+    EXPECT_LE(held.closed_interval.low, held.closed);
+    for (const auto& [name, closed] : held.parts) EXPECT_GT(closed, 0.8) << name;
+  }
+  problem = planted(kOneSpeed, "");
+  problem.options.ask = {"crosstalk"};
+  EXPECT_EQ(answerTo(problem).verdict, Verdict::kNotIdentifiable);
+}
+
+TEST(Investigate, NamesTwoEffects) {
+  const DiscrepancyReport report =
+      answerTo(planted(kTwoSpeeds, "  hysteresis: {loop_width: 0.05}\n  time_skew: {delay: 0.5}\n"));
+  ASSERT_EQ(report.verdict, Verdict::kNamed) << report.sentence;
+  Ids names;
+  for (const auto& effect : report.effects) names.push_back(effect.id);
+  std::sort(names.begin(), names.end());
+  EXPECT_EQ(names, (Ids{"hysteresis", "time_skew"}));
+}
+
+// The loop is 5 % of full scale, so with a least gap of 200 kPa it does not matter.
+TEST(Investigate, NamesNoEffectBelowTheLeastGap) {
+  DiscrepancyProblem problem = planted(kOneSpeed, "  hysteresis: {loop_width: 0.05}\n");
+  problem.options.least_gap = 200e3;
+  problem.options.ask = {"hysteresis"};
+  const DiscrepancyReport report = answerTo(problem);
+  ASSERT_EQ(report.verdict, Verdict::kNone) << report.sentence;
+  ASSERT_FALSE(report.too_small.empty());
+  EXPECT_EQ(report.least_gap, 200e3);
+  EXPECT_NE(report.sentence.find("least gap"), std::string::npos) << report.sentence;
 }
 
 TEST(Investigate, NamesCreepAndALeakApart) {
-  const DiscrepancyReport creep = investigate(planted(kTwoSpeeds, "  creep: {per_decade: 0.03}\n"));
+  const DiscrepancyReport creep = answerTo(planted(kTwoSpeeds, "  creep: {per_decade: 0.03}\n"));
   ASSERT_FALSE(creep.credible_set.empty()) << creep.sentence;
   EXPECT_EQ(creep.credible_set.at(0), std::vector<std::string>{"creep"});
-  const DiscrepancyReport leak = investigate(planted(kTwoSpeeds, "  seal_leak: {time_constant: 900}\n"));
+  const DiscrepancyReport leak = answerTo(planted(kTwoSpeeds, "  seal_leak: {time_constant: 900}\n"));
   ASSERT_FALSE(leak.credible_set.empty()) << leak.sentence;
   EXPECT_EQ(leak.credible_set.at(0), std::vector<std::string>{"seal_leak"});
-}
-
-TEST(Investigate, SaysTheSameOnAnyNumberOfThreads) {
-  DiscrepancyProblem problem = planted(kOneSpeed, "  hysteresis: {loop_width: 0.05}\n");
-  const DiscrepancyReport one = investigate(problem);
-  problem.options.threads = 3;
-  const DiscrepancyReport three = investigate(problem);
-  EXPECT_EQ(one.sentence, three.sentence);
-  EXPECT_EQ(one.gap.after, three.gap.after);
-  ASSERT_EQ(one.candidates.size(), three.candidates.size());
-  for (std::size_t i = 0; i < one.candidates.size(); ++i)
-    EXPECT_EQ(one.candidates[i].z, three.candidates[i].z);
 }
 
 TEST(Investigate, FindsFaultsByTestsOfTheirOwn) {
   // They fail while they are watched: where a taxel is silent on a surface from the start, the bend may
   // silence it.
   const DiscrepancyReport dead =
-      investigate(planted(kTwoSpeeds, "  dead_taxel: {taxels: 1, first: 5, start: 1200}\n"));
+      answerTo(planted(kTwoSpeeds, "  dead_taxel: {taxels: 1, first: 5, start: 1200}\n"));
   ASSERT_EQ(dead.verdict, Verdict::kNamed) << dead.sentence;
   EXPECT_EQ(dead.effects.at(0).id, "dead_taxel");
   EXPECT_EQ(dead.where.taxels, std::vector<std::size_t>{5});
   EXPECT_GT(dead.gap.before, dead.gap.after);
   const DiscrepancyReport stuck =
-      investigate(planted(kTwoSpeeds, "  stuck_taxel: {taxels: 1, first: 2, start: 1200, value: -1}\n"));
+      answerTo(planted(kTwoSpeeds, "  stuck_taxel: {taxels: 1, first: 2, start: 1200, value: -1}\n"));
   ASSERT_EQ(stuck.verdict, Verdict::kNamed) << stuck.sentence;
   EXPECT_EQ(stuck.effects.at(0).id, "stuck_taxel");
   EXPECT_EQ(stuck.where.taxels, std::vector<std::size_t>{2});
   // As written, the simulation fails where and when the sheet did.
   const DiscrepancyReport two =
-      investigate(planted(kTwoSpeeds, "  stuck_taxel: {spells: [2, 1200, 1e9, -1, 9, 1500, 1e9, -1]}\n"));
+      answerTo(planted(kTwoSpeeds, "  stuck_taxel: {spells: [2, 1200, 1e9, -1, 9, 1500, 1e9, -1]}\n"));
   EXPECT_EQ(two.where.taxels, (std::vector<std::size_t>{2, 9}));
   for (const DiscrepancyReport* fault : {&dead, &stuck, &two}) EXPECT_GT(fault->gap.closed, 0.9);
   const DiscrepancyReport row =
-      investigate(planted(kTwoSpeeds, "  row_fault: {share: 0.04, line: 1, burst: 3, depth: 0.7}\n"));
+      answerTo(planted(kTwoSpeeds, "  row_fault: {share: 0.04, line: 1, burst: 3, depth: 0.7}\n"));
   ASSERT_EQ(row.verdict, Verdict::kNamed) << row.sentence;
   EXPECT_EQ(row.effects.at(0).id, "row_fault");
   EXPECT_EQ(row.where.taxels, (std::vector<std::size_t>{4, 5, 6, 7}));
@@ -117,7 +162,7 @@ TEST(Investigate, FindsTheHumOfTheMains) {
   std::string rig = kTwoSpeeds;  // 50 Hz is no multiple of its scan rate
   rig.replace(rig.find("scan_rate: 2.5"), 14, "scan_rate: 2.7");
   const DiscrepancyReport report =
-      investigate(planted(rig, "  mains_pickup: {amplitude: 25, frequency: 50.03, taxel_time: 2.0e-3}\n"));
+      answerTo(planted(rig, "  mains_pickup: {amplitude: 25, frequency: 50.03, taxel_time: 2.0e-3}\n"));
   ASSERT_EQ(report.verdict, Verdict::kNamed) << report.sentence;
   EXPECT_EQ(report.effects.at(0).id, "mains_pickup");
   EXPECT_NEAR(valueOf(report, "amplitude"), 25, 5);
@@ -142,13 +187,13 @@ TEST(Investigate, SaysThatASecondEffectRemainsThatAddsLittle) {
 TEST(Investigate, SaysWhichTaxelsAreOddWhereNoFaultIsInTheLibrary) {
   DiscrepancyProblem row = planted(kTwoSpeeds, "  row_fault: {share: 0.04, line: 1, burst: 3, depth: 0.7}\n");
   row.options.leave_out = {"row_fault", "stuck_taxel", "dead_taxel"};
-  const DiscrepancyReport by_row = investigate(row);
+  const DiscrepancyReport by_row = answerTo(row);
   ASSERT_EQ(by_row.verdict, Verdict::kUnknown) << by_row.sentence;
   EXPECT_EQ(by_row.depends_on, std::vector<std::string>{"row"});
   EXPECT_EQ(by_row.where.taxels, (std::vector<std::size_t>{4, 5, 6, 7}));
   DiscrepancyProblem dead = planted(kTwoSpeeds, "  dead_taxel: {taxels: 1, first: 5, start: 700}\n");
   dead.options.leave_out = {"dead_taxel", "stuck_taxel"};
-  EXPECT_EQ(investigate(dead).verdict, Verdict::kUnknown);
+  EXPECT_EQ(answerTo(dead).verdict, Verdict::kUnknown);
 }
 
 // One speed cannot distinguish a loop from a short memory. The recommended experiment can. The prediction
@@ -156,9 +201,10 @@ TEST(Investigate, SaysWhichTaxelsAreOddWhereNoFaultIsInTheLibrary) {
 TEST(Investigate, RecommendsAnExperimentThatSettlesIt) {
   const std::string loop = "  hysteresis: {loop_width: 0.05}\n";
   DiscrepancyProblem problem = planted(kOneSpeed, loop);
-  const DiscrepancyReport before = investigate(problem);
+  const DiscrepancyReport before = answerTo(problem);
   ASSERT_EQ(before.verdict, Verdict::kAmbiguous);
   ASSERT_EQ(before.next_experiment.size(), 1u);
+  EXPECT_GE(before.next_experiment.front().cycles, 5);
   const std::vector<std::string> with_two_speeds = {"two_speeds", "step_hold", "random_order"};
   EXPECT_EQ(std::count(with_two_speeds.begin(), with_two_speeds.end(), before.next_experiment[0].protocol),
             1);
@@ -179,6 +225,14 @@ TEST(Investigate, RecommendsAnExperimentThatSettlesIt) {
   wrong.hash = hashOf(wrong, before.base);
   EXPECT_FALSE(confirm(wrong, before.base, experiment).passed);
 
+  problem.options.threads = 3;
+  const DiscrepancyReport on_three_threads = investigate(problem);
+  EXPECT_EQ(on_three_threads.sentence, before.sentence);
+  EXPECT_EQ(on_three_threads.gap.after, before.gap.after);
+  ASSERT_EQ(on_three_threads.candidates.size(), before.candidates.size());
+  for (std::size_t i = 0; i < before.candidates.size(); ++i)
+    EXPECT_EQ(on_three_threads.candidates[i].z, before.candidates[i].z);
+
   problem.recordings.insert(problem.recordings.end(), experiment.begin(), experiment.end());
   const DiscrepancyReport after = investigate(problem);
   ASSERT_EQ(after.verdict, Verdict::kNamed) << after.sentence;
@@ -198,19 +252,24 @@ TEST(Investigate, StartsFromWhatTheSimulationHasAlready) {
   EXPECT_EQ(quiet.verdict, Verdict::kNone) << quiet.sentence;
 }
 
-TEST(Investigate, RepeatsUntilQuiet) {
-  DiscrepancyProblem problem = planted(kTwoSpeeds, "  time_skew: {delay: 0.3}\n");
+TEST(Investigate, NamesALateClockAndByHowMuchAndRepeatsUntilQuiet) {
+  DiscrepancyProblem problem = planted(kTwoSpeeds, "  time_skew: {delay: 0.25}\n");
+  const DiscrepancyReport once = answerTo(problem);
+  ASSERT_EQ(once.verdict, Verdict::kNamed) << once.sentence;
+  EXPECT_EQ(once.effects.at(0).id, "time_skew");
+  EXPECT_NEAR(valueOf(once, "delay"), 0.25, 0.02);
   problem.options.repeat = true;
-  const DiscrepancyReport report = investigate(problem);
+  const DiscrepancyReport report = answerTo(problem);
   ASSERT_EQ(report.verdict, Verdict::kNamed) << report.sentence;
   ASSERT_EQ(report.steps.size(), 2u);
   EXPECT_EQ(report.steps[0].added, "time_skew");
   EXPECT_TRUE(report.steps[1].added.empty());
-  constexpr double kNoise = 8.0 / 4095;  // white noise of the rig [share of full scale]
+  EXPECT_EQ(report.gap.before, once.gap.before);
+  EXPECT_EQ(report.gap.floor, once.gap.floor);
   EXPECT_NEAR(report.gap.floor, kNoise, 0.15 * kNoise) << "that of the readings as they were recorded";
   EXPECT_NE(report.gap.floor, report.gap.after);
   EXPECT_GT(report.gap.closed, 0.9);
-  EXPECT_EQ(report.credible_set, (std::vector<std::vector<std::string>>{{"time_skew"}}));
+  EXPECT_EQ(report.credible_set, (std::vector<Ids>{{"time_skew"}}));
 }
 
 std::string refusal(const DiscrepancyProblem& problem) {

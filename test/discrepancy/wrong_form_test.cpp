@@ -2,10 +2,16 @@
 // unknown.
 #include <gtest/gtest.h>
 
-#include "discrepancy/planted.h"
+#include "discrepancy/answer.h"
 
 namespace fsr::discrepancy {
 namespace {
+
+TEST(WrongForm, IsSaidOfAFormThatIsNotInTheLibrary) {
+  const DiscrepancyReport report = answerTo(planted::crossedLoop());
+  ASSERT_EQ(report.verdict, Verdict::kWrongForm) << report.sentence;
+  EXPECT_EQ(report.effects.at(0).id, "hysteresis");
+}
 
 // 0.28 of the span is more than any loop in a data sheet.
 TEST(WrongForm, IsSaidOfASizeThatIsNotPlausible) {

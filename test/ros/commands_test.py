@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """Every command in the code blocks of README.md and docs/*.md, as it stands there, with files of the names that it uses.
 
-Each runs in a folder of its own that looks like the checkout. A computation that goes on for BUSY seconds passes: its arguments and
-files were accepted by then. A launch command is checked as the launch file itself checks it; what the launch files then do is tested by
+Each runs in a folder of its own that looks like the checkout. A program that has computed for BUSY seconds is ended and passes: its
+arguments and files were accepted by then. A launch command is checked as the launch file itself checks it; what the launch files then do is tested by
 the other rostests. NOT_RUN lists what cannot run here.
 """
 import collections
@@ -14,6 +14,7 @@ import math
 import os
 import pathlib
 import re
+import resource
 import shlex
 import shutil
 import signal
@@ -29,7 +30,10 @@ import rostest
 SOURCE = pathlib.Path(__file__).resolve().parent.parent.parent
 PROGRAMS = pathlib.Path(os.environ["CMAKE_PREFIX_PATH"].split(":")[0]) / "lib" / "fsr_pressure_map"
 PAGES = [SOURCE / "README.md", *sorted((SOURCE / "docs").glob("*.md"))]
-BUSY = 4        # [s]
+BUSY = 2        # CPU time of one program [s]
+ENDED_BUSY = {-signal.SIGXCPU, 128 + signal.SIGXCPU}  # exit status of a program that is ended so, and of a shell whose program is
+FIGURES_BUSY = "exit status %d" % signal.SIGXCPU  # what a tool says of a script of figures that is ended so
+LISTENS = 4     # for what never ends [s]
 PATIENCE = 60   # for nodes and what does not compute [s]
 REFUSED = 2     # exit status of wrong usage, of tools and of ROS's programs
 
@@ -261,23 +265,25 @@ class CommandsTest(unittest.TestCase):
         self.stock.furnish(folder, command)
         return folder
 
-    def run_there(self, command, seconds):
-        """(exit status, None = still busy; output)"""
+    def run_there(self, command, seconds, busy=None):
+        """(exit status, None = still running or busy for so long; output)"""
         folder = self.sandbox(command)
         environment = dict(os.environ, ROS_HOME=str(folder / "ros_home"), HOME=str(folder), MPLBACKEND="Agg")
         child = subprocess.Popen(["bash", "-c", command], cwd=folder, env=environment, text=True, start_new_session=True,
-                                 stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+                                 stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                                 preexec_fn=busy and (lambda: resource.setrlimit(resource.RLIMIT_CPU, (busy, busy + 1))))
         try:
             said, _ = child.communicate(timeout=seconds)
-            return child.returncode, said
+            ended_busy = child.returncode in ENDED_BUSY or FIGURES_BUSY in said
+            return None if ended_busy else child.returncode, said
         except subprocess.TimeoutExpired:
             os.killpg(child.pid, signal.SIGKILL)
             return None, child.communicate()[0]
 
-    def run_all(self, commands):
+    def run_all(self, commands, *limits):
         """Runs the commands, as many at a time as there are cores; {command: (status, output)}."""
         with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-            return dict(zip(commands, pool.map(lambda command: self.run_there(filled(command), BUSY), commands)))
+            return dict(zip(commands, pool.map(lambda command: self.run_there(filled(command), *limits), commands)))
 
     def of(self, pattern):
         return [command for command in self.commands if re.match(pattern, command)]
@@ -294,7 +300,7 @@ class CommandsTest(unittest.TestCase):
         self.failures = []
 
     def tearDown(self):
-        self.assertEqual("\n".join(self.failures), "")
+        self.assertFalse(self.failures, "\n".join(self.failures))
 
     def test_the_commands_are_found(self):
         self.assertGreater(len(self.commands), 80)
@@ -335,7 +341,7 @@ class CommandsTest(unittest.TestCase):
     def test_tools_and_scripts(self):
         commands = [command for command in self.of("(?!roslaunch |rosservice |rostopic )") if not ENDLESS.match(command)]
         self.assertGreater(len(commands), 40)
-        for command, (status, said) in self.run_all(commands).items():
+        for command, (status, said) in self.run_all(commands, PATIENCE, BUSY).items():
             with self.each(command):
                 self.assertTrue(status is None or 0 <= status < REFUSED, "status %s\n%s" % (status, said[-2000:]))
 
@@ -363,7 +369,7 @@ class CommandsTest(unittest.TestCase):
                 status, said = self.run_there(command + " -n 1", PATIENCE)  # as it stands it never ends
                 self.assertEqual(status, 0, said)
                 self.assertIn("---", said)
-        for command, (status, said) in self.run_all(self.of(ENDLESS.pattern)).items():
+        for command, (status, said) in self.run_all(self.of(ENDLESS.pattern), LISTENS).items():
             with self.each(command):
                 self.assertIsNone(status, said)
                 self.assertNotIn("rror", said)

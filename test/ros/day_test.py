@@ -32,7 +32,7 @@ conditioning: {cycles: 4, rate: 60000}
 rest: {before: 10, after: 10}
 surfaces: [{surface: flat}, {surface: cylinder_5cm}]
 program:
-  - cycles: {peak: 500000, rate: 40000, dwell_peak: 5, dwell_rest: 2, cycles: 5}
+  - cycles: {peak: 500000, rate: 80000, dwell_peak: 5, dwell_rest: 2, cycles: 5}
 """
 # Steps: 1 mount, 2 to 5 conditioning, 6 rest, 7 to 11 cycles, 12 rest; 13 mount, 14 rest, 15 to 19 cycles, 20 rest.
 STEPS = {"peak_too_low": 8, "leak": 9, "board_unplugged": 16, "terminal_closed": 18}

@@ -30,7 +30,7 @@ CYCLES = 4
 RIG = """simulation: week
 seed: 4
 matrix: {rows: 4, columns: 5, pitch_x: 0.010, pitch_y: 0.010}
-chamber: {peak: 500000, rate: 50000, dwell_peak: 2, dwell_rest: 5, cycles: 4}
+chamber: {peak: 500000, rate: 100000, dwell_peak: 2, dwell_rest: 4, cycles: 4}
 effects:
   static_curve: {conductance: 3.0e-4, reference_pressure: 620000, exponent: 0.9, saturation_pressure: 1.2e6}
   bending_preload: {amplitude: 34000, curvature_constant: 3.0}

@@ -30,7 +30,7 @@ conditioning: {cycles: 2, rate: 60000}
 rest: {before: 5, after: 0}
 surfaces: [{surface: flat, mounts: 3}, {surface: cylinder_5cm, mounts: 3}]
 program:
-  - cycles: {peak: 500000, rate: 40000, dwell_peak: 2, dwell_rest: 2, cycles: 2}
+  - cycles: {peak: 500000, rate: 80000, dwell_peak: 2, dwell_rest: 2, cycles: 2}
 """
 # Steps: 1 mount, 2 and 3 conditioning, 4 rest, 5 and 6 cycles; mount n from the second on: 4 n - 1 mount, rest, two cycles.
 MISTAKES = "sheet_off@10,repeat_surface@23"

@@ -18,7 +18,7 @@ import demo_shape  # noqa: E402
 from demo_tools import process, run_tool, wait_until  # noqa: E402
 
 RADII = {"flat": 0, "cylinder_13cm": 0.13, "cylinder_9cm": 0.09, "cylinder_7cm": 0.07, "cylinder_5cm": 0.05}  # [m]; 0 = flat
-CYCLES = [{"cycles": {"peak": 620e3, "rate": 60e3, "dwell_peak": 1, "dwell_rest": 1, "cycles": 3}}]
+CYCLES = [{"cycles": {"peak": 620e3, "rate": 120e3, "dwell_peak": 1, "dwell_rest": 1, "cycles": 3}}]
 UNDER_LOAD = 20e3  # the chamber at which a bag of training begins [Pa]
 LIMIT = 120  # for the cycles [s]
 

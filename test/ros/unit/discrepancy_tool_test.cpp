@@ -60,6 +60,7 @@ class DiscrepancyTool : public test_support::FolderTest {
   std::string run(const std::vector<std::string>& words) {
     const test_support::ToolRun run = test_support::runTool(discrepancyTool, "discrepancy", words);
     EXPECT_EQ(run.status, run.error.empty() ? 0 : -1);
+    EXPECT_EQ(run.said().find("nan"), std::string::npos) << run.said();
     return run.said();
   }
   void expectSaid(const std::string& said, const std::vector<std::string>& parts) const {
@@ -196,30 +197,51 @@ TEST_F(DiscrepancyTool, StatesWhatARecordingLacks) {
                     "No temperature was recorded"});
 }
 
-TEST_F(DiscrepancyTool, ConfirmsByBagsThatAreNewWhatItPredicted) {
-  namespace planted = fsr::discrepancy::planted;
-  const std::string loop = "  hysteresis: {loop_width: 0.05}\n";
-  // Bags of a session, one for each surface.
-  const auto session = [&](const std::string& name, std::uint64_t seed, const std::string& more) {
-    fsr::simulation::SimulationSettings settings = planted::simulation(planted::kTwoSpeeds, more);
+// As a user does: bags in, verdict.yaml out, and bags of a later day to confirm it.
+class PlantedSession : public DiscrepancyTool {
+ protected:
+  /// Bags of a session, one for each surface.
+  std::vector<std::string> session(const std::string& name, const std::string& rig, std::uint64_t seed,
+                                   const std::string& hidden) const {
+    fsr::simulation::SimulationSettings settings = fsr::discrepancy::planted::simulation(rig, hidden);
     settings.seed = seed;
     std::vector<std::string> bags;
     for (const fsr::dataset::Recording& one : fsr::simulation::simulateSession(settings))
       bags.push_back(bag(name + std::to_string(bags.size()) + ".bag", one));
     return bags;
-  };
-  const auto with = [&](std::vector<std::string> words, const std::vector<std::string>& bags) {
+  }
+  std::string with(std::vector<std::string> words, const std::vector<std::string>& bags) {
     words.insert(words.end(), bags.begin(), bags.end());
     return run(words);
-  };
-  const std::vector<std::string> nothing = session("nothing", 7, "");
+  }
+};
+
+TEST_F(PlantedSession, OptionsGoToTheSearchAndAnswersIntoTheVerdict) {
+  with({"--output", path("out"), "--no-report", "--without", "time_skew", "--ask", "crosstalk"},
+       session("late", fsr::discrepancy::planted::kTwoSpeeds, 7, "  time_skew: {delay: 0.3}\n"));
+  const fsr::report::VerdictFile file = fsr::report::readVerdict(path("out/verdict.yaml"));
+  EXPECT_EQ(file.verdict, "unknown");
+  EXPECT_TRUE(file.effects.empty());
+  expectSaid(test_support::contentOf(folder_ / "out/verdict.yaml"),
+             {"{id: crosstalk, answer: not_identifiable"});
+}
+
+// A single speed cannot distinguish a loop from a short memory. Bags of two speeds confirm the right one.
+TEST_F(PlantedSession, IsConfirmedByBagsThatAreNew) {
+  using fsr::discrepancy::planted::kOneSpeed;
+  using fsr::discrepancy::planted::kTwoSpeeds;
+  const std::string loop = "  hysteresis: {loop_width: 0.05}\n";
+  const std::vector<std::string> nothing = session("nothing", kOneSpeed, 7, "");
   with({"--output", path("none"), "--no-report"}, nothing);
   expectSaid(with({"--confirm", path("nowhere.yaml")}, nothing), {"nowhere.yaml", "there is no such file"});
   expectSaid(with({"--confirm", path("none/verdict.yaml")}, nothing),
              {"verdict is none", "predicts nothing"});
-  const std::vector<std::string> first = session("loop", 7, loop);
-  const std::string said = with({"--output", path("out"), "--no-report"}, first);
-  ASSERT_FALSE(fsr::report::readVerdict(path("out/verdict.yaml")).effects.empty()) << said;
+  const std::vector<std::string> first = session("loop", kOneSpeed, 7, loop);
+  with({"--output", path("out"), "--no-report"}, first);
+  const fsr::report::VerdictFile file = fsr::report::readVerdict(path("out/verdict.yaml"));
+  ASSERT_EQ(file.verdict, "ambiguous");
+  EXPECT_EQ(file.credible_set.front(), std::vector<std::string>{"hysteresis"});
+  EXPECT_GE(file.credible_set.size(), 2u);
   expectSaid(with({"--confirm", path("out/verdict.yaml")}, first), {"loop0.bag", "made from this bag"});
   std::vector<std::string> copies;  // written anew, with other stamps of reception
   for (const std::string& one : first) {
@@ -229,12 +251,17 @@ TEST_F(DiscrepancyTool, ConfirmsByBagsThatAreNewWhatItPredicted) {
   }
   expectSaid(with({"--confirm", path("out/verdict.yaml")}, copies),
              {"copy0.bag", "made from a bag with the same readings"});
-  expectSaid(with({"--confirm", path("out/verdict.yaml")}, session("again", 8, loop)),
+  expectSaid(with({"--confirm", path("out/verdict.yaml")}, session("again", kOneSpeed, 8, loop)),
              {"Confirmed: ", "Same protocol: proves little", "Written: " + path("out/confirmation.yaml")});
-  expectSaid(with({"--confirm", path("out/verdict.yaml")}, session("without", 9, "")),
-             {"Not confirmed: ", "Written: " + path("out/confirmation_2.yaml")});
+  const std::string said =
+      with({"--confirm", path("out/verdict.yaml")}, session("speeds", kTwoSpeeds, 8, loop));
+  EXPECT_EQ(said.find("Confirmed: hysteresis"), 0u) << said;
+  EXPECT_EQ(said.find("ame protocol"), std::string::npos) << said;
+  expectSaid(with({"--confirm", path("out/verdict.yaml")},
+                  session("memory", kTwoSpeeds, 9, "  creep: {per_decade: 0.05, slowest: 100}\n")),
+             {"Not confirmed: ", "Written: " + path("out/confirmation_3.yaml")});
   for (const auto& [name, passed] :
-       {std::pair{"confirmation.yaml", "passed: true"}, std::pair{"confirmation_2.yaml", "passed: false"}}) {
+       {std::pair{"confirmation.yaml", "passed: true"}, std::pair{"confirmation_3.yaml", "passed: false"}}) {
     expectSaid(test_support::contentOf(folder_ / "out" / name), {passed});
   }
 }

@@ -1,5 +1,5 @@
 // Finds statements of a report that contradict each other, and is tested on reports that say two things.
-#include "report/contradictions.h"
+#include "discrepancy/contradictions.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,6 @@
 #include <functional>
 #include <set>
 
-#include "report/discrepancy_report.h"
 #include "support/example_discrepancy.h"
 
 namespace test_support {
@@ -106,10 +105,6 @@ class Checker {
     }
     const std::size_t at = report_.sentence.find(" effects tested");
     if (at != std::string::npos) needInSentence(std::to_string(report_.tested.size()) + " effects tested");
-    const std::string text = fsr::report::discrepancyText(report_);
-    need(text.find(report_.sentence) < text.find('\n'), "the text does not begin with the sentence");
-    for (const char* bad : {"nan", "inf "})
-      need(text.find(bad) == std::string::npos, std::string("the text has ") + bad);
   }
   void needInSentence(const std::string& part) {
     need(report_.sentence.find(part) != std::string::npos, "\"" + part + "\" is not in: " + report_.sentence);
