@@ -246,7 +246,7 @@ class Appraiser {
   // Under the noise of the null, slow noise takes a part of a strong effect. So the noise is fitted again
   // together with the best explanation, until this stays the best.
   Settled settle(const std::vector<HeldOutScore>& first, const CycleNoise& start) const {
-    Settled settled{first, bestOf(first), 0, start};
+    Settled settled{first, bestOf(first), 1e-9, start};
     for (int round = 0; round < kNoiseRounds; ++round) {
       const std::size_t best = settled.best;
       if (settled.scores[best].fit.variance == 0) return settled;
@@ -279,8 +279,6 @@ class Appraiser {
     Settled settled = settle(first_, null_.noise);
     const CycleNoise still = withoutCycles();
     Settled other = settle(scored(still, model_, competing_).scores(), still);
-      fprintf(stderr, "settle a %zu %.1f  b %zu %.1f\n", settled.best, settled.density, other.best,
-              other.density);
     if (other.density > settled.density) settled = std::move(other);
     const std::vector<HeldOutScore>& scores = settled.scores;
     const std::size_t best = settled.best;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 #include "statistics/random_stream.h"
 
@@ -48,27 +49,26 @@ std::vector<SlowColumn> slowColumns(const std::vector<Explaining>& explanations)
 class Correlated {
  public:
   Correlated(const CycleDesign& design, double correlation, const Eigen::MatrixXd& columns)
-      : whiten_(Eigen::MatrixXd::Zero(columns.rows(), columns.rows())) {
-    const Index n = columns.rows();
-    const double innovation = std::sqrt(1 - correlation * correlation);
-    Eigen::MatrixXd mounts = Eigen::MatrixXd::Zero(n, static_cast<Index>(design.visits));
-    for (Index c = 0; c < n; ++c) {
-      const std::size_t visit = design.cycles[static_cast<std::size_t>(c)].visit;
-      const bool first = c == 0 || design.cycles[static_cast<std::size_t>(c) - 1].visit != visit;
-      whiten_(c, c) = first ? innovation : 1;
-      if (!first) whiten_(c, c - 1) = -correlation;
-      if (first) constant_ += std::log(innovation);
-      mounts(c, static_cast<Index>(visit)) = whiten_.row(c).sum();
+      : correlation_(correlation), constants_(columns.rows()) {
+    for (const CycleBins& bins : design.cycles) {
+      firsts_.push_back(visits_.empty() || visits_.back() != bins.visit);
+      visits_.push_back(bins.visit);
     }
-    for (Index v = 0; v < mounts.cols(); ++v) {
-      const double norm = mounts.col(v).norm();
-      if (!(norm > 0)) continue;  // none of its cycles may be fitted
-      constant_ -= std::log(norm);
+    constants_.setOnes();
+    constants_ = decorrelated(constants_);
+    Eigen::ArrayXd squares = Eigen::ArrayXd::Zero(static_cast<Index>(design.visits));
+    for (std::size_t c = 0; c < visits_.size(); ++c)
+      squares[static_cast<Index>(visits_[c])] += std::pow(constants_[static_cast<Index>(c)], 2);
+    for (std::size_t c = 0; c < visits_.size(); ++c) {
+      constants_[static_cast<Index>(c)] /= std::sqrt(squares[static_cast<Index>(visits_[c])]);
+      if (firsts_[c]) constant_ += std::log(1 - correlation * correlation) / 2;
+    }
+    for (Index v = 0; v < squares.size(); ++v) {
+      if (!(squares[v] > 0)) continue;  // none of its cycles may be fitted
+      constant_ -= std::log(squares[v]) / 2;
       ++mounts_;
-      const Eigen::VectorXd unit = mounts.col(v) / norm;
-      whiten_ -= unit * (unit.transpose() * whiten_).eval();
     }
-    columns_ = whiten_ * columns;
+    columns_ = whitened(columns);
     for (Index k = 0; k < columns_.cols(); ++k) {
       const double norm = columns_.col(k).norm();
       columns_.col(k) *= norm > 1e-9 * columns.col(k).norm() ? 1 / norm : 0;
@@ -78,10 +78,10 @@ class Correlated {
   // Restricted log likelihood of the gains without an effect [1 x draws], and with one column [columns x
   // draws].
   Eigen::ArrayXXd without(const Eigen::MatrixXd& gains) const {
-    return logLikelihood((whiten_ * gains).colwise().squaredNorm().array());
+    return logLikelihood(whitened(gains).colwise().squaredNorm().array());
   }
   Eigen::ArrayXXd with(const Eigen::MatrixXd& gains, const std::vector<SlowColumn>& slow) const {
-    const Eigen::MatrixXd left = whiten_ * gains;
+    const Eigen::MatrixXd left = whitened(gains);
     Eigen::ArrayXXd explained = (columns_.transpose() * left).array();
     for (Index k = 0; k < explained.rows(); ++k) {
       if (!slow[static_cast<std::size_t>(k)].free) explained.row(k) = explained.row(k).max(0.0);
@@ -96,9 +96,36 @@ class Correlated {
     return constant_ - free / 2 * squares.max(1e-300).log();
   }
 
-  Eigen::MatrixXd whiten_;   // [cycles x cycles]; the constants of the mounts are taken out
-  Eigen::MatrixXd columns_;  // likewise, of length 1
-  double constant_ = 0;
+  Eigen::MatrixXd decorrelated(const Eigen::MatrixXd& courses) const {
+    Eigen::MatrixXd result = courses;
+    for (Index c = 0; c < courses.rows(); ++c) {
+      if (firsts_[static_cast<std::size_t>(c)])
+        result.row(c) *= std::sqrt(1 - correlation_ * correlation_);
+      else
+        result.row(c) -= correlation_ * courses.row(c - 1);
+    }
+    return result;
+  }
+  // Without the constants of the mounts.
+  Eigen::MatrixXd whitened(const Eigen::MatrixXd& courses) const {
+    Eigen::MatrixXd result = decorrelated(courses);
+    std::map<std::size_t, Eigen::RowVectorXd> sums;  // of each visit
+    for (Index c = 0; c < result.rows(); ++c) {
+      Eigen::RowVectorXd& sum = sums[visits_[static_cast<std::size_t>(c)]];
+      if (sum.size() == 0) sum.setZero(result.cols());
+      sum += constants_[c] * result.row(c);
+    }
+    for (Index c = 0; c < result.rows(); ++c)
+      result.row(c) -= constants_[c] * sums[visits_[static_cast<std::size_t>(c)]];
+    return result;
+  }
+
+  double correlation_;               // of one cycle to the next of the same visit
+  std::vector<std::size_t> visits_;  // of each cycle
+  std::vector<bool> firsts_;         // the cycle before it is of another visit
+  Eigen::VectorXd constants_;        // a constant of each visit, decorrelated, of length 1
+  Eigen::MatrixXd columns_;          // whitened, of length 1
+  double constant_ = 0;              // of the restricted likelihood
   Index mounts_ = 0;
 };
 
