@@ -112,7 +112,7 @@ class FirmwareTest(unittest.TestCase):
         launch = subprocess.Popen(["roslaunch", "fsr_pressure_map", "record.launch", f"bag:={bag}", f"surface:={surface}"],
                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         self.wait("/fsr/session", rospy.AnyMsg)
-        self.wait_for_time(2.2 * CYCLE)
+        self.wait_for_time(3 * CYCLE)  # a loaded machine begins to record late
         launch.send_signal(signal.SIGINT)
         launch.wait(60)
         return bag.with_suffix(".bag")

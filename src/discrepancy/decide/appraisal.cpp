@@ -293,7 +293,9 @@ class Appraiser {
       if (one.contends) contenders.push_back(e);
     }
     matrix::forEachTaxel(contenders.size(), options_.threads, [&](std::size_t k) {
-      weighAlone(result_.all[contenders[k]], scores[contenders[k]], settled.start);
+      Weighed& one = result_.all[contenders[k]];
+      weighAlone(one, scores[contenders[k]], settled.start);
+      keepBetter(one, scores[contenders[k]], null_.noise);
     });
     shareNoise(contenders);
     compareToNull(contenders);
@@ -312,9 +314,7 @@ class Appraiser {
     matrix::forEachTaxel(contenders.size(), options_.threads, [&](std::size_t k) {
       if (contenders[k] == best) return;
       Weighed& one = result_.all[contenders[k]];
-      Weighed again = one;
-      weighAlone(again, one.score, start);
-      if (meanOf(again.density) > meanOf(one.density)) one = std::move(again);
+      keepBetter(one, one.score, start);
     });
     improveNull(start);
   }
@@ -385,6 +385,13 @@ class Appraiser {
     for (std::size_t c = 0; c < design_.cycles.size(); ++c)
       one.density.push_back(own.density(c, one.score.nats[c]));
     if (one.explaining.single()) one.beginning = beginningOf(own, one.explaining);
+  }
+
+  // Weighs it again from another start of its noise.
+  void keepBetter(Weighed& one, const HeldOutScore& found, const CycleNoise& start) const {
+    Weighed again = one;
+    weighAlone(again, found, start);
+    if (meanOf(again.density) > meanOf(one.density)) one = std::move(again);
   }
 
   void compareToNull(const std::vector<std::size_t>& contenders) {
