@@ -81,10 +81,9 @@ using FaultProgress = std::function<void(double share)>;
 /// 1958), whose parameters are the median and the quartiles over the taxels. A line also fails where all its
 /// taxels fail at the same time.
 ///
-/// A taxel that is neither fades where it loses gain in every stay, evenly over time.
-///
 /// A failing taxel is named only where the rule of TaxelWatch (verdictOf()) calls it dead or stuck in its
-/// spells, with what is expected of it in place of its neighbours.
+/// spells, with what is expected of it in place of its neighbours, or where it fades: its gain falls from part
+/// to part of each stay.
 Faults findFaults(const Sheet& sheet, const FaultOptions& options = {}, const FaultProgress& progress = {});
 
 }  // namespace fsr::health

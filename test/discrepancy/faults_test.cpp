@@ -53,6 +53,14 @@ TEST(Faults, ATaxelThatFadesLessAndLessIsFound) {
   EXPECT_GT(fault.fades_over, 3036) << "something is left at the end";
 }
 
+TEST(Faults, AFadeOfTheSimulationIsFoundAgain) {
+  const std::vector<health::Fault> faults = faultsOf(
+      planted::problem(planted::kTwoSpeeds, "  dead_taxel: {taxels: 1, first: 5, fades_over: 4000}\n"));
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_EQ(faults[0].taxels, std::vector<std::size_t>{5});
+  EXPECT_NEAR(faults[0].fades_over, 4000, 600);
+}
+
 TEST(Faults, ATaxelThatGainsDoesNotFade) {
   EXPECT_TRUE(fading([](double share) { return 0.8 + 0.2 * share; }).taxels.empty());
 }

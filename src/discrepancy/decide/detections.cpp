@@ -190,25 +190,43 @@ bool takeOutPlaces(const SheetResiduals& residuals, const matrix::Layout& layout
   return true;
 }
 
-// Probability that the taxels in any other order have such a line. `score`: of a line.
+std::vector<Eigen::Index> inPlace(const SheetResiduals& residuals) {
+  std::vector<Eigen::Index> order(residuals.size());
+  std::iota(order.begin(), order.end(), 0);
+  return order;
+}
+
+// Probability that the taxels in any other order have a line like `own`. `score`: of a line.
 template <typename Score>
 double chanceOfOrders(const Courses& courses, const Eigen::MatrixXd& covariance,
                       const SheetResiduals& residuals, const std::vector<Eigen::VectorXcd>& patterns,
-                      const std::vector<double>& turns, const DiscrepancyOptions& options, Score score) {
-  std::vector<Eigen::Index> order(residuals.size());
-  std::iota(order.begin(), order.end(), 0);
-  const double own = score(strongest(courses, covariance, residuals, patterns, turns, order));
+                      const std::vector<double>& turns, const DiscrepancyOptions& options, const Line& own,
+                      Score score) {
+  std::vector<Eigen::Index> order = inPlace(residuals);
   std::size_t beyond = 0, draws = 0;
   while (draws < options.null_draws) {
     const statistics::RandomStream stream = statistics::randomStream(options.seed, "hum", draws);
     for (std::size_t k = order.size(); k-- > 1;)
       std::swap(order[k], order[static_cast<std::size_t>(stream.uniform(k) * static_cast<double>(k + 1))]);
-    beyond += score(strongest(courses, covariance, residuals, patterns, turns, order)) >= own;
+    beyond += score(strongest(courses, covariance, residuals, patterns, turns, order)) >= score(own);
     ++draws;
     // No further draw can bring it below the level.
     if (static_cast<double>(1 + beyond) > options.level * static_cast<double>(options.null_draws + 1)) break;
   }
   return static_cast<double>(1 + beyond) / static_cast<double>(draws + 1);
+}
+
+// The same of a line that does not turn, beside all that the place of a taxel explains.
+double chanceOfPlaces(const Courses& courses, const Measured& measured, const SheetResiduals& residuals,
+                      const std::vector<Eigen::VectorXcd>& patterns, const std::vector<double>& turns,
+                      const DiscrepancyOptions& options) {
+  Courses left = courses;
+  if (!takeOutPlaces(residuals, measured.layout, left)) return 1;
+  const Eigen::MatrixXd covariance =
+      (left.residual.transpose() * left.residual).cast<double>() / static_cast<double>(measured.samples());
+  const Line line = strongest(left, covariance, residuals, patterns, turns, inPlace(residuals));
+  return chanceOfOrders(left, covariance, residuals, patterns, turns, options, line,
+                        [](const Line& one) { return one.both_sides * one.excess; });
 }
 
 }  // namespace
@@ -227,9 +245,7 @@ Mains findMains(const Measured& measured, const StaticFit& fit, const TaxelFit& 
     patterns.push_back(patternOf(residuals, turn));
   }
   const Courses courses = coursesOf(measured, residuals);
-  std::vector<Eigen::Index> order(residuals.size());
-  std::iota(order.begin(), order.end(), 0);
-  const Line line = strongest(courses, covariance, residuals, patterns, turns, order);
+  const Line line = strongest(courses, covariance, residuals, patterns, turns, inPlace(residuals));
   mains.turn = line.turn;
   const double total = covariance.trace() / static_cast<double>(residuals.size()) + taxels.within();
   mains.share = total > 0 ? 2 * line.excess / static_cast<double>(residuals.size()) / total : 0;
@@ -238,20 +254,12 @@ Mains findMains(const Measured& measured, const StaticFit& fit, const TaxelFit& 
   const double slope = fit.netCurve().maxCoeff() / std::max(1.0, *high - *low);
   mains.at_map = slope > 0 ? mains.amplitude / std::sqrt(2) / slope : 0;
   if (mains.at_map < leastGap(measured, options)) return mains;
-  mains.p = chanceOfOrders(courses, covariance, residuals, patterns, turns, options,
+  mains.p = chanceOfOrders(courses, covariance, residuals, patterns, turns, options, line,
                            [](const Line& one) { return one.height * one.excess; });
-  bool standing = mains.p <= options.level && line.p_standing > options.level;
-  if (standing) {
-    Courses placeless = courses;
-    standing = takeOutPlaces(residuals, measured.layout, placeless);
-    const Eigen::MatrixXd left = (placeless.residual.transpose() * placeless.residual).cast<double>() /
-                                 static_cast<double>(measured.samples());
-    if (standing)
-      mains.p =
-          std::max(mains.p, chanceOfOrders(placeless, left, residuals, patterns, turns, options,
-                                           [](const Line& one) { return one.both_sides * one.excess; }));
-  }
-  if (!standing) mains.p = std::max(mains.p, line.p_standing);
+  const bool standing = mains.p <= options.level && line.p_standing > options.level;
+  mains.p =
+      std::max(mains.p, standing ? chanceOfPlaces(courses, measured, residuals, patterns, turns, options)
+                                 : line.p_standing);
   mains.found = mains.p <= options.level;
   if (!mains.found) return mains;
   const Eigen::VectorXcd pattern = patternOf(residuals, mains.turn);
