@@ -111,7 +111,7 @@ class RecheckTest(unittest.TestCase):
         self.start("calibrated", f"serial_port:={port}", "serial_baud:=0", "calibration:=sheet.h5", "surface:=flat")
         parent = self.info("")
         self.diagnosed("none")
-        said = self.ended(self.start("recheck", "cycles:=3", "same_mount:=true", "report:=report.json"))
+        said = self.ended(self.start("recheck", "same_mount:=true", "report:=report.json"))
         self.assertIn("\nCorrected: on cycles that were left out", said)
         self.assertNotIn("has died", said)
         child = self.folder / "sheet_corrected.h5"
