@@ -122,12 +122,19 @@ TEST(HistoryTraining, ChangesNoTable) {
   }
 }
 
+// In the mean over sheets: a bin's quantile is that of the mean protocol, not of the readings.
 TEST(HistoryTraining, StatesADeviationThatHoldsInBothDirections) {
-  const Calibration calibration = trained(rigWith(0.08, 0.02));
-  ASSERT_GE(calibration.scores.history.parts.size(), 3u);
-  for (std::size_t part = 0; part < 3; ++part)
-    EXPECT_NEAR(calibration.scores.history.parts[part].within_one_deviation, 0.683, 0.04)
-        << calibration.scores.history.parts[part].name;
+  std::array<double, 3> within = {};
+  constexpr unsigned kSheets = 4;
+  for (unsigned seed = 1; seed <= kSheets; ++seed) {
+    MemoryRig rig = rigWith(0.08, 0.02);
+    rig.seed = seed;
+    const Calibration calibration = trained(rig);
+    ASSERT_GE(calibration.scores.history.parts.size(), within.size());
+    for (std::size_t part = 0; part < within.size(); ++part)
+      within[part] += calibration.scores.history.parts[part].within_one_deviation / kSheets;
+  }
+  for (std::size_t part = 0; part < within.size(); ++part) EXPECT_NEAR(within[part], 0.683, 0.06) << part;
 }
 
 // By readings, the long protocol with small errors would leave 50 % in the mean.
@@ -321,6 +328,17 @@ TEST(HistoryChoiceRule, PlaysAndMemoriesOfUseOnlyTogetherAreNone) {
   EXPECT_LT(rmse[std::size_t(HistoryFamily::kBoth)], 0.8 * rmse[0]) << "it would have won";
   EXPECT_EQ(chosen(0, 0.2).family, HistoryFamily::kPlays);
   EXPECT_EQ(chosen(0.8, 0.2).family, HistoryFamily::kBoth);
+}
+
+TEST(HistoryChoiceRule, AsksTheMeansWhetherThereIsAMemory) {
+  const HistoryGrid grid = historyGrid(0, 600e3, 30);
+  const std::vector<LeftOutSums> loop = {sumsOf(grid, 0, 0.2), sumsOf(grid, 0, 0.2)};
+  const std::vector<LeftOutSums> nothing = {sumsOf(grid, 0, 0), sumsOf(grid, 0, 0)};
+  EXPECT_EQ(chooseHistory({}, grid, {"one", "other"}, loop, loop).family, HistoryFamily::kPlays);
+  EXPECT_EQ(chooseHistory({}, grid, {"one", "other"}, loop, nothing).family, HistoryFamily::kNone)
+      << "what readings gain is the filtering of their noise";
+  EXPECT_EQ(chooseHistory({}, grid, {"one", "other"}, nothing, loop).family, HistoryFamily::kNone)
+      << "it does not help on other protocols";
 }
 
 class LiveHistory : public testing::Test {

@@ -53,7 +53,7 @@ class HistorySums {
   const Eigen::MatrixXd& gram() const { return gram_; }
 
  private:
-  static constexpr Eigen::Index kBlock = 128;
+  static constexpr Eigen::Index kBlock = 32;
   void addBlock();
   Eigen::MatrixXd gram_;
   Eigen::MatrixXd rows_;  // samples that are not added yet, one in each column

@@ -197,26 +197,27 @@ HistoryFolds::Answers HistoryFolds::answersOfTables(std::size_t taxel) const {
   return answers;
 }
 
-// A row is the mean of the scans within half a second.
-void HistoryFolds::addRows(std::size_t taxel, const Answers& answers, std::size_t left_out,
+void HistoryFolds::addRows(std::size_t taxel, const Answers& answers, std::size_t left_out, HistoryRows rows,
                            LeftOutSums& sums) const {
   HistoryCourse course;
   for (const HistoryStream& stream : streams_)
-    addHistoryRows(stream, grid_, taxel, answers, left_out, course, sums);
+    addHistoryRows(stream, grid_, taxel, answers, left_out, rows, course, sums);
   sums.finish();
 }
 
-// Taxels are added in their order, so that the result does not depend on the number of threads.
-std::vector<LeftOutSums> HistoryFolds::leaveOneOut() const {
+// answers_of(taxel): [protocols], for the one that is left out. Taxels are added in their order, so that the
+// result does not depend on the number of threads.
+template <typename AnswersOf>
+std::vector<LeftOutSums> HistoryFolds::sumsOf(HistoryRows rows, AnswersOf&& answers_of) const {
   std::vector<LeftOutSums> all(count(), LeftOutSums(grid_.features()));
   const std::size_t taxels = calibration_.no_model.size();
   for (std::size_t first = 0; first < taxels; first += kTogether) {
     std::vector<std::vector<LeftOutSums>> each(std::min(kTogether, taxels - first));
     matrix::forEachTaxel(each.size(), threads_, [&](std::size_t t) {
       if (calibration_.no_model[first + t] != 0) return;
-      const std::vector<Answers> answers = answersWithoutEach(first + t);
+      const std::vector<Answers> answers = answers_of(first + t);
       each[t].assign(count(), LeftOutSums(grid_.features()));
-      for (std::size_t g = 0; g < count(); ++g) addRows(first + t, answers[g], g, each[t][g]);
+      for (std::size_t g = 0; g < count(); ++g) addRows(first + t, answers[g], g, rows, each[t][g]);
     });
     for (const std::vector<LeftOutSums>& own : each) {
       for (std::size_t g = 0; g < own.size(); ++g) all[g].merge(own[g]);
@@ -226,10 +227,20 @@ std::vector<LeftOutSums> HistoryFolds::leaveOneOut() const {
   return all;
 }
 
+std::vector<LeftOutSums> HistoryFolds::leaveOneOut() const {
+  return sumsOf(HistoryRows::kReadings, [this](std::size_t taxel) { return answersWithoutEach(taxel); });
+}
+
+std::vector<LeftOutSums> HistoryFolds::withAllTables() const {
+  return sumsOf(HistoryRows::kMeans,
+                [this](std::size_t taxel) { return std::vector<Answers>(count(), answersOfTables(taxel)); });
+}
+
 HistorySums HistoryFolds::whole() const {
   std::vector<LeftOutSums> each(calibration_.no_model.size(), LeftOutSums(grid_.features()));
-  forEachModelledTaxel(
-      [&](std::size_t taxel) { addRows(taxel, answersOfTables(taxel), count(), each[taxel]); });
+  forEachModelledTaxel([&](std::size_t taxel) {
+    addRows(taxel, answersOfTables(taxel), count(), HistoryRows::kReadings, each[taxel]);
+  });
   HistorySums all(grid_.features());
   for (const LeftOutSums& own : each) all.merge(own.trained);
   return all;

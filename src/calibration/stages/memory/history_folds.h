@@ -76,8 +76,11 @@ class HistoryFolds {
   const HistoryGrid& grid() const { return grid_; }
   const dataset::Protocols& protocols() const { return protocols_; }
 
-  /// Of all taxels, [protocols].
+  /// The readings of all taxels, [protocols].
   std::vector<LeftOutSums> leaveOneOut() const;
+  /// Means over half a second, with the tables of the calibration, which know all protocols: no difference
+  /// between sessions hides what the readings before do.
+  std::vector<LeftOutSums> withAllTables() const;
   /// With the tables of the calibration, which were trained on all protocols.
   HistorySums whole() const;
 
@@ -97,7 +100,10 @@ class HistoryFolds {
   std::size_t count() const { return protocols_.names.size(); }
   std::vector<Answers> answersWithoutEach(std::size_t taxel) const;
   Answers answersOfTables(std::size_t taxel) const;
-  void addRows(std::size_t taxel, const Answers& answers, std::size_t left_out, LeftOutSums& sums) const;
+  void addRows(std::size_t taxel, const Answers& answers, std::size_t left_out, HistoryRows rows,
+               LeftOutSums& sums) const;
+  template <typename AnswersOf>
+  std::vector<LeftOutSums> sumsOf(HistoryRows rows, AnswersOf&& answers_of) const;
   OpenDeviation openDeviation(const Eigen::VectorXd& coefficients, const std::vector<double>& spreads) const;
   template <typename Visit>
   void forEachChange(std::size_t taxel, const Answers& answers, const Eigen::VectorXd& coefficients,

@@ -48,9 +48,8 @@ std::string historyPartName(std::size_t part) {
 
 namespace {
 
-// Readings are compared in means over this time. White noise, which no memory can remove, then counts less
-// [s].
-constexpr double kRow = 0.5;
+constexpr double kRow = 0.5;      // of a mean [s]
+constexpr double kSampled = 0.1;  // between readings; those between tell little more [s]
 
 constexpr std::size_t kMostInMemory = 8u << 20;  // of the scans of a recording, and of their steps [bytes]
 
@@ -73,7 +72,7 @@ HistoryStream::HistoryStream(const dataset::Recording& recording, std::size_t nu
   if (memories > 0) steps_.begin(memories, recording.scans());
   std::vector<Step> steps(memories);
   std::optional<Scan> last;
-  double row_begins = 0, turned = 0;
+  double row_begins = 0, turned = 0, sampled = 0;
   for (std::size_t i = 0; i < recording.scans(); ++i) {
     if (sections.section[i] == dataset::kNoSection) continue;
     const double time = recording.time[i];
@@ -90,7 +89,10 @@ HistoryStream::HistoryStream(const dataset::Recording& recording, std::size_t nu
         time >= row_begins + kRow) {
       ++scan.row;
       row_begins = time;
+      scan.sampled = true;
     }
+    scan.sampled = scan.sampled || time >= sampled + kSampled;
+    if (scan.sampled) sampled = time;
     if (memories > 0) {
       std::fill(steps.begin(), steps.end(), Step());
       if (last && !scan.starts) operators_.stepsOver(time - recording.time[last->number], steps.data());
@@ -188,13 +190,13 @@ void LeftOutSums::merge(const LeftOutSums& other) {
 }
 
 void addHistoryRows(const HistoryStream& stream, const HistoryGrid& grid, std::size_t taxel,
-                    const std::vector<StaticAnswer>& answers, std::size_t left_out, HistoryCourse& course,
-                    LeftOutSums& sums) {
+                    const std::vector<StaticAnswer>& answers, std::size_t left_out, HistoryRows rows,
+                    HistoryCourse& course, LeftOutSums& sums) {
   const std::size_t n = grid.features();
   std::vector<double> features(n), mean(n);
   double target = 0, count = 0;
   HistoryStream::Scan row;
-  const auto close = [&] {
+  const auto add = [&] {
     if (count == 0) return;
     for (double& value : mean) value /= count;
     (row.protocol == left_out ? sums.part(row.part) : sums.trained).add(mean.data(), target / count);
@@ -203,14 +205,15 @@ void addHistoryRows(const HistoryStream& stream, const HistoryGrid& grid, std::s
   };
   stream.run(taxel, answers, course,
              [&](const HistoryStream::Scan& scan, double x, const double* state, const double* /*open*/) {
-               if (scan.row != row.row) close();
+               if (rows == HistoryRows::kReadings && !scan.sampled) return;
+               if (rows == HistoryRows::kReadings || scan.row != row.row) add();
                row = scan;
                historyFeatures(grid, x, state, features.data());
                for (std::size_t k = 0; k < n; ++k) mean[k] += features[k];
                target += stream.recording().pressure[scan.number] - x;
                count += 1;
              });
-  close();
+  add();
 }
 
 }  // namespace fsr::calibration

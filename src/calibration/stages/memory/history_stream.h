@@ -64,6 +64,7 @@ class HistoryStream {
     std::uint32_t protocol = 0;  ///< dataset::Protocols::kOther: of none
     std::uint8_t part = 0;       ///< of the protocol, see dataset::Protocols
     std::uint32_t row = 0;       ///< scans of one row lie within half a second of one protocol
+    bool sampled = false;        ///< at least one scan in 0.1 s is
     std::uint16_t curvature_class = 0;
     bool starts = false;        ///< nothing is known of the readings before
     double since_reversal = 0;  ///< time since the chamber changed its direction [s]
@@ -171,11 +172,15 @@ struct LeftOutSums {
   void merge(const LeftOutSums& other);
 };
 
-/// Adds the readings of one taxel in one recording, in means over half a second. `answers` [classes] were
-/// trained without the protocol `left_out`. `course`: see HistoryStream::run(). finish() must follow the last
+/// What the sums of a training hold: readings, one in 0.1 s, with the noise that a weight lets through; or
+/// their means over half a second, in which white noise, which is no memory, counts little.
+enum class HistoryRows { kReadings, kMeans };
+
+/// Adds the readings of one taxel in one recording. `answers` [classes]: for `left_out` to be predicted, they
+/// were trained without this protocol. `course`: see HistoryStream::run(). finish() must follow the last
 /// recording.
 void addHistoryRows(const HistoryStream& stream, const HistoryGrid& grid, std::size_t taxel,
-                    const std::vector<StaticAnswer>& answers, std::size_t left_out, HistoryCourse& course,
-                    LeftOutSums& sums);
+                    const std::vector<StaticAnswer>& answers, std::size_t left_out, HistoryRows rows,
+                    HistoryCourse& course, LeftOutSums& sums);
 
 }  // namespace fsr::calibration

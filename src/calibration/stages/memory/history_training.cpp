@@ -29,14 +29,48 @@ void refuse(std::size_t protocols, const HistoryChoice& choice, Calibration& cal
   calibration.scores.history.choice = "History: none, since " + reason + ".";
 }
 
-// The squared errors of one part of a protocol that was left out, by HistoryFamily and at last with the
-// correction c alone [Pa^2], summed over its readings.
+// The squared errors of one part of a protocol, by HistoryFamily and at last with the correction c alone
+// [Pa^2], summed over its readings.
 struct PartErrors {
   std::size_t protocol = 0;
   std::size_t cycles = 0;  // number of the cycles that the part is of
   std::array<double, 5> square = {};
 };
+using Parts = std::vector<PartErrors>;
 constexpr std::size_t kCorrected = 4;
+
+// Coefficients [models] that are fitted to the sums.
+std::vector<Eigen::VectorXd> modelsOf(const HistoryGrid& grid, const HistorySums& sums) {
+  std::vector<Eigen::VectorXd> models(4, Eigen::VectorXd::Zero(Eigen::Index(grid.features())));
+  for (const HistoryFamily family : kFamilies) models[std::size_t(family)] = fitHistory(family, grid, sums);
+  models.push_back(fitCorrection(grid, sums));
+  return models;
+}
+
+PartErrors errorsOf(std::size_t protocol, std::size_t part, const HistorySums& sums,
+                    const std::vector<Eigen::VectorXd>& models) {
+  PartErrors errors{protocol, part / 2, {}};
+  for (std::size_t m = 0; m < models.size(); ++m)
+    errors.square[m] = sums.samples() * sums.meanSquare(models[m]);
+  return errors;
+}
+
+// Of models that were fitted to all parts.
+Parts errorsOfFit(const HistoryGrid& grid, const std::vector<LeftOutSums>& all) {
+  HistorySums whole(grid.features());
+  for (const LeftOutSums& sums : all) {
+    for (const HistorySums& part : sums.left_out) whole.merge(part);
+  }
+  const std::vector<Eigen::VectorXd> models = modelsOf(grid, whole);
+  Parts parts;
+  for (std::size_t g = 0; g < all.size(); ++g) {
+    for (std::size_t part = 0; part < all[g].left_out.size(); ++part) {
+      const HistorySums& own = all[g].left_out[part];
+      if (own.samples() > 0) parts.push_back(errorsOf(g, part, own, models));
+    }
+  }
+  return parts;
+}
 
 // By how much one model is better than another, as a share of the other's squared errors, with its interval.
 struct Gain {
@@ -44,87 +78,20 @@ struct Gain {
   double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
 };
 
-// The choice of a family, by its errors on protocols that were left out.
-class FamilyChoice {
- public:
-  /// `names` and `sums`: of each protocol that was left out.
-  FamilyChoice(const HistoryGrid& grid, const std::vector<std::string>& names,
-               const std::vector<LeftOutSums>& sums) {
-    scoreFamilies(grid, names, sums);
-  }
-
-  bool assessable() const { return !score_.protocols.empty(); }
-  HistoryFamily choose(const HistoryChoice& choice);
-  /// [protocols], trained without the protocol.
-  std::vector<Eigen::VectorXd> coefficients(HistoryFamily family) const;
-  const HistoryScore& score() const { return score_; }
-  double rmse(HistoryFamily family) const { return std::sqrt(squareOf(std::size_t(family)) / samples_); }
-
- private:
-  void scoreFamilies(const HistoryGrid& grid, const std::vector<std::string>& names,
-                     const std::vector<LeftOutSums>& all);
-  double squareOf(std::size_t model) const;
-  Gain gain(std::size_t model, std::size_t other, std::optional<std::size_t> protocol = {}) const;
-  bool nowhereWorse(HistoryFamily family) const;
-  bool better(HistoryFamily family) const;
-  HistoryFamily best() const;
-  std::string gainText(HistoryFamily family) const;
-
-  std::vector<std::vector<Eigen::VectorXd>> coefficients_;  // [protocols][families]
-  std::vector<PartErrors> parts_;
-  double samples_ = 0;
-  HistoryScore score_;
-};
-
-void FamilyChoice::scoreFamilies(const HistoryGrid& grid, const std::vector<std::string>& names,
-                                 const std::vector<LeftOutSums>& all) {
-  for (std::size_t g = 0; g < all.size(); ++g) {
-    const LeftOutSums& sums = all[g];
-    coefficients_.emplace_back(4, Eigen::VectorXd::Zero(Eigen::Index(grid.features())));
-    for (const HistoryFamily family : kFamilies)
-      coefficients_.back()[std::size_t(family)] = fitHistory(family, grid, sums.trained);
-    std::vector<Eigen::VectorXd> models = coefficients_.back();
-    models.push_back(fitCorrection(grid, sums.trained));
-    std::array<double, 5> square = {};
-    double samples = 0;
-    for (std::size_t part = 0; part < sums.left_out.size(); ++part) {
-      const HistorySums& own = sums.left_out[part];
-      if (own.samples() == 0) continue;
-      parts_.push_back({g, part / 2, {}});
-      for (std::size_t m = 0; m < models.size(); ++m)
-        square[m] += parts_.back().square[m] = own.samples() * own.meanSquare(models[m]);
-      samples += own.samples();
-    }
-    // A surface that was recorded with this protocol only has no answer without it.
-    if (samples == 0) continue;
-    samples_ += samples;
-    HistoryScore::Protocol score;
-    score.name = names[g];
-    for (std::size_t f = 0; f < score.rmse.size(); ++f) score.rmse[f] = std::sqrt(square[f] / samples);
-    score.corrected_rmse = std::sqrt(square[kCorrected] / samples);
-    score_.protocols.push_back(score);
-  }
-}
-
-std::vector<Eigen::VectorXd> FamilyChoice::coefficients(HistoryFamily family) const {
-  std::vector<Eigen::VectorXd> own;
-  for (const auto& families : coefficients_) own.push_back(families[std::size_t(family)]);
-  return own;
-}
-
-// Over the readings of all protocols [Pa^2].
-double FamilyChoice::squareOf(std::size_t model) const {
+// Over all parts [Pa^2].
+double squareOf(const Parts& parts, std::size_t model) {
   double sum = 0;
-  for (const PartErrors& part : parts_) sum += part.square[model];
+  for (const PartErrors& part : parts) sum += part.square[model];
   return sum;
 }
 
 // On one protocol, or on all. Readings of one cycle are not independent, so cycles are drawn, and where they
 // are too few for an interval, their loading and unloading. Where these are too few, the interval is endless.
-Gain FamilyChoice::gain(std::size_t model, std::size_t other, std::optional<std::size_t> protocol) const {
+Gain gainOf(const Parts& parts, std::size_t model, std::size_t other,
+            std::optional<std::size_t> protocol = {}) {
   std::vector<std::array<double, 2>> squares;
   statistics::BootstrapProblem problem{{{"cycle", {}}, {"half a cycle", {}}}, {}};
-  for (const PartErrors& part : parts_) {
+  for (const PartErrors& part : parts) {
     if (protocol && part.protocol != *protocol) continue;
     problem.levels[0].unit.push_back(part.protocol * dataset::Protocols::kMostCycles + part.cycles);
     problem.levels[1].unit.push_back(squares.size());
@@ -145,22 +112,93 @@ Gain FamilyChoice::gain(std::size_t model, std::size_t other, std::optional<std:
   return result;
 }
 
+// The choice of a family, by its errors on protocols that were left out.
+class FamilyChoice {
+ public:
+  /// `names` and `sums`: of each protocol that was left out. `means`: see chooseHistory().
+  FamilyChoice(const HistoryGrid& grid, const std::vector<std::string>& names,
+               const std::vector<LeftOutSums>& sums, const std::vector<LeftOutSums>& means)
+      : means_(errorsOfFit(grid, means)) {
+    scoreFamilies(grid, names, sums);
+  }
+
+  bool assessable() const { return !score_.protocols.empty(); }
+  HistoryFamily choose(const HistoryChoice& choice);
+  /// [protocols], trained without the protocol.
+  std::vector<Eigen::VectorXd> coefficients(HistoryFamily family) const;
+  const HistoryScore& score() const { return score_; }
+  double rmse(HistoryFamily family) const {
+    return std::sqrt(squareOf(parts_, std::size_t(family)) / samples_);
+  }
+
+ private:
+  void scoreFamilies(const HistoryGrid& grid, const std::vector<std::string>& names,
+                     const std::vector<LeftOutSums>& all);
+  bool nowhereWorse(HistoryFamily family) const;
+  bool better(HistoryFamily family) const;
+  HistoryFamily best() const;
+  std::string gainText(HistoryFamily family) const;
+
+  std::vector<std::vector<Eigen::VectorXd>> coefficients_;  // [protocols][models]
+  Parts parts_;                                             // of protocols that were left out
+  Parts means_;
+  double samples_ = 0;
+  HistoryScore score_;
+};
+
+void FamilyChoice::scoreFamilies(const HistoryGrid& grid, const std::vector<std::string>& names,
+                                 const std::vector<LeftOutSums>& all) {
+  for (std::size_t g = 0; g < all.size(); ++g) {
+    const LeftOutSums& sums = all[g];
+    coefficients_.push_back(modelsOf(grid, sums.trained));
+    std::array<double, 5> square = {};
+    double samples = 0;
+    for (std::size_t part = 0; part < sums.left_out.size(); ++part) {
+      const HistorySums& own = sums.left_out[part];
+      if (own.samples() == 0) continue;
+      parts_.push_back(errorsOf(g, part, own, coefficients_.back()));
+      for (std::size_t m = 0; m < square.size(); ++m) square[m] += parts_.back().square[m];
+      samples += own.samples();
+    }
+    // A surface that was recorded with this protocol only has no answer without it.
+    if (samples == 0) continue;
+    samples_ += samples;
+    HistoryScore::Protocol score;
+    score.name = names[g];
+    for (std::size_t f = 0; f < score.rmse.size(); ++f) score.rmse[f] = std::sqrt(square[f] / samples);
+    score.corrected_rmse = std::sqrt(square[kCorrected] / samples);
+    score_.protocols.push_back(score);
+  }
+}
+
+std::vector<Eigen::VectorXd> FamilyChoice::coefficients(HistoryFamily family) const {
+  std::vector<Eigen::VectorXd> own;
+  for (const auto& families : coefficients_) own.push_back(families[std::size_t(family)]);
+  return own;
+}
+
 bool FamilyChoice::nowhereWorse(HistoryFamily family) const {
   std::set<std::size_t> protocols;
   for (const PartErrors& part : parts_) protocols.insert(part.protocol);
-  return std::all_of(protocols.begin(), protocols.end(),
-                     [&](std::size_t protocol) { return gain(std::size_t(family), 0, protocol).high >= 0; });
+  return std::all_of(protocols.begin(), protocols.end(), [&](std::size_t protocol) {
+    return gainOf(parts_, std::size_t(family), 0, protocol).high >= 0;
+  });
 }
 
-// By kWins and beyond chance than the static answer, and than the correction c without any memory: what c
-// alone mends is no memory. Both families only if one of them is better by itself: plays and memories that
-// are of use only together, with opposite signs, are a filter of noise.
+// Whether the error of a model is smaller by kWins, and beyond chance where that is asked for, than that of
+// the static answer, and than that of the correction c without any memory: what c alone mends is no memory.
+bool wins(const Parts& parts, HistoryFamily family, bool beyond_chance) {
+  const std::size_t none = squareOf(parts, kCorrected) < squareOf(parts, 0) ? kCorrected : 0;
+  return squareOf(parts, std::size_t(family)) <= kWins * kWins * squareOf(parts, none) &&
+         (!beyond_chance || gainOf(parts, std::size_t(family), none).low > 0);
+}
+
+// Both families only if one of them is better by itself in the means: plays and memories that are of use only
+// together, with opposite signs, are a filter of noise.
 bool FamilyChoice::better(HistoryFamily family) const {
-  const std::size_t none = squareOf(kCorrected) < squareOf(0) ? kCorrected : 0;
-  const double allowed = kWins * kWins * squareOf(none);
-  const auto wins = [&](HistoryFamily own) { return squareOf(std::size_t(own)) <= allowed; };
-  const bool part = wins(HistoryFamily::kPlays) || wins(HistoryFamily::kMemories);
-  return wins(family) && (family != HistoryFamily::kBoth || part) && gain(std::size_t(family), none).low > 0;
+  const bool part = family != HistoryFamily::kBoth || wins(means_, HistoryFamily::kPlays, false) ||
+                    wins(means_, HistoryFamily::kMemories, false);
+  return part && wins(means_, family, true) && wins(parts_, family, true);
 }
 
 // Both families are preferred to one of them only beyond chance.
@@ -168,8 +206,8 @@ HistoryFamily FamilyChoice::best() const {
   HistoryFamily best = HistoryFamily::kNone;
   for (const HistoryFamily family : kFamilies) {
     const auto f = std::size_t(family), b = std::size_t(best);
-    if (squareOf(f) >= squareOf(b) || !better(family) || !nowhereWorse(family)) continue;
-    const bool beyond_chance = best == HistoryFamily::kNone || gain(f, b).low > 0;
+    if (squareOf(parts_, f) >= squareOf(parts_, b) || !better(family) || !nowhereWorse(family)) continue;
+    const bool beyond_chance = best == HistoryFamily::kNone || gainOf(parts_, f, b).low > 0;
     if (family != HistoryFamily::kBoth || beyond_chance) best = family;
   }
   return best;
@@ -177,7 +215,7 @@ HistoryFamily FamilyChoice::best() const {
 
 // In RMSE.
 std::string FamilyChoice::gainText(HistoryFamily family) const {
-  const Gain own = gain(std::size_t(family), 0);
+  const Gain own = gainOf(parts_, std::size_t(family), 0);
   const auto percent = [](double share) {
     return settings::fixedText(100 * (1 - std::sqrt(std::max(1 - share, 0.0))), 0);
   };
@@ -220,8 +258,9 @@ std::string whyNoProtocolIsLeftOut(std::size_t protocols) {
 }
 
 HistoryVerdict chooseHistory(const HistoryChoice& choice, const HistoryGrid& grid,
-                             const std::vector<std::string>& names, const std::vector<LeftOutSums>& sums) {
-  FamilyChoice families(grid, names, sums);
+                             const std::vector<std::string>& names, const std::vector<LeftOutSums>& sums,
+                             const std::vector<LeftOutSums>& means) {
+  FamilyChoice families(grid, names, sums, means.empty() ? sums : means);
   HistoryVerdict verdict;
   if (!families.assessable()) return verdict;
   verdict.family = families.choose(choice);
@@ -232,7 +271,7 @@ HistoryVerdict chooseHistory(const HistoryChoice& choice, const HistoryGrid& gri
 }
 
 std::vector<HistoryScore::Protocol> familyErrors(const HistoryFolds& folds) {
-  return FamilyChoice(folds.grid(), folds.protocols().names, folds.leaveOneOut()).score().protocols;
+  return FamilyChoice(folds.grid(), folds.protocols().names, folds.leaveOneOut(), {}).score().protocols;
 }
 
 void trainHistory(const HistoryProblem& problem, const CalibrationOptions& options,
@@ -245,7 +284,8 @@ void trainHistory(const HistoryProblem& problem, const CalibrationOptions& optio
     return;
   }
   const HistoryFolds folds(problem, protocols, options.threads, calibration);
-  const HistoryVerdict verdict = chooseHistory(choice, folds.grid(), protocols.names, folds.leaveOneOut());
+  const HistoryVerdict verdict =
+      chooseHistory(choice, folds.grid(), protocols.names, folds.leaveOneOut(), folds.withAllTables());
   if (verdict.score.protocols.empty()) {
     refuse(protocols.names.size(), choice, calibration);
     return;

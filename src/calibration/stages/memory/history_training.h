@@ -31,9 +31,9 @@ std::vector<HistoryScore::Protocol> familyErrors(const HistoryFolds& folds);
 
 /// Chooses and trains the model of the sheet's memory. Each protocol in turn is predicted by tables and
 /// models that were trained without it. `calibration` must have its tables; it receives the model and its
-/// scores. If the choice is automatic, a family is taken only if it is worse than the static answer by more
-/// than 1 % on no protocol, and better by 2 % over all of them than the static answer and than c(x) alone.
-/// Throws InputError if a family is asked for and no protocol can be left out.
+/// scores. Automatically a family is taken only if it is worse than the static answer beyond chance on no
+/// protocol, better by 2 % and beyond chance over all of them than the static answer and than c(x) alone, and
+/// if there is a memory. Throws InputError if a family is asked for and no protocol can be left out.
 void trainHistory(const HistoryProblem& problem, const CalibrationOptions& options, Calibration& calibration);
 
 /// A family, chosen by the errors on protocols that were left out.
@@ -45,9 +45,11 @@ struct HistoryVerdict {
 };
 
 /// The choice of trainHistory(). `names` and `sums` have one entry for each protocol that was left out.
-/// score.protocols is empty if none of them has a reading that counts.
+/// Whether there is a memory is asked of the parts of `means`; without them, of those of `sums`.
+/// score.protocols is empty if no protocol has a reading that counts.
 HistoryVerdict chooseHistory(const HistoryChoice& choice, const HistoryGrid& grid,
-                             const std::vector<std::string>& names, const std::vector<LeftOutSums>& sums);
+                             const std::vector<std::string>& names, const std::vector<LeftOutSums>& sums,
+                             const std::vector<LeftOutSums>& means = {});
 
 /// Why no protocol can be left out, and what to record. `protocols`: number of them in the recordings.
 std::string whyNoProtocolIsLeftOut(std::size_t protocols);
