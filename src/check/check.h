@@ -60,8 +60,9 @@ struct MapErrors {
   calibration::TrainedInterval range;    ///< pressures of the training
   std::vector<std::size_t> suspicious;   ///< taxels with much larger errors than in training
   std::vector<std::size_t> dead, stuck;  ///< taxels, as TaxelWatch finds them
-  /// Errors of the static answer and with the model of the sheet's memory: all readings, those where the
-  /// model was not settled, and of the others by direction, by time since the last reversal, by protocol.
+  /// Errors of the static answer and with the model of the sheet's memory: all readings; those where the
+  /// model was not settled, also by direction; the others by direction, by time since the last reversal and
+  /// by protocol.
   /// Empty without a model.
   std::vector<calibration::HistoryScore::Part> history;
   /// Where the calibration expects a tare, each session was checked with the zero of the rest at its start

@@ -25,9 +25,12 @@ using calibration::Calibration;
 using calibration::HistoryScore;
 using dataset::Recording;
 
-constexpr std::uint64_t kLeastReadings = 100;                   // of a taxel, before it can be suspicious
-constexpr std::size_t kUnsettled = calibration::kHistoryParts;  // place of the readings before it was settled
-constexpr std::size_t kFirstProtocol = kUnsettled + 1;
+constexpr std::uint64_t kLeastReadings = 100;  // of a taxel, before it can be suspicious
+// Places of the readings before it was settled: all, loading, unloading.
+constexpr std::array<const char*, 3> kUnsettledNames = {"not settled", "not settled, loading",
+                                                        "not settled, unloading"};
+constexpr std::size_t kUnsettled = calibration::kHistoryParts;
+constexpr std::size_t kFirstProtocol = kUnsettled + kUnsettledNames.size();
 
 // Of the readings of one part of the model of the sheet's memory.
 struct PartSums {
@@ -177,6 +180,7 @@ class Checker {
       add_to(0);
       if ((live.map.flags[i] & map::taxel_flag::kHistoryShort) != 0) {
         add_to(kUnsettled);
+        if (parts[1] < kUnsettledNames.size()) add_to(kUnsettled + parts[1]);  // its direction is known
         continue;
       }
       for (std::size_t k = 1; k < parts.size(); ++k) {
@@ -189,9 +193,9 @@ class Checker {
   void addPart(std::size_t part, std::vector<HistoryScore::Part>& history) const {
     const PartSums& sums = parts_[part];
     if (sums.readings == 0) return;
-    const std::string name = part == kUnsettled  ? "not settled"
-                             : part < kUnsettled ? calibration::historyPartName(part)
-                                                 : protocols_.names[part - kFirstProtocol];
+    const std::string name = part >= kFirstProtocol ? protocols_.names[part - kFirstProtocol]
+                             : part >= kUnsettled   ? kUnsettledNames[part - kUnsettled]
+                                                    : calibration::historyPartName(part);
     const auto n = double(sums.readings);
     history.push_back({name, sums.readings, std::sqrt(sums.static_square / n), std::sqrt(sums.square / n),
                        double(sums.within) / n});

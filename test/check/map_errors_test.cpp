@@ -182,7 +182,10 @@ TEST(MapErrorsOfMemory, SaysWhichPromiseItCannotSee) {
                                     "with it"),
             std::string::npos)
       << check.not_shown[0];
+  ASSERT_GT(check.history.size(), 2u);
   EXPECT_EQ(check.history[1].name, "not settled");
+  EXPECT_EQ(check.history[2].name, "not settled, loading");
+  EXPECT_EQ(check.history[2].readings, check.history[1].readings);
   EXPECT_EQ(check.not_shown[1].find("pressures of "), 0u) << check.not_shown[1];
 }
 

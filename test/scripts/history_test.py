@@ -40,6 +40,22 @@ class MeasureHistory(unittest.TestCase):
         self.assertEqual(row[:4], ["1", f"{result['static']:.2f}", f"{result['history']:.2f}", f"{result['floor']:.2f}"])
         self.assertTrue((folder / "history.png").exists())
 
+    def test_states_totals_of_random_programs(self):
+        folder = MEASURED[0] / "random"
+        done = run(SCRIPTS / "measure_history", "--random", "staircases:cycles", "--seeds", "2", "--output", folder, "--programs", PROGRAMS)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        found = json.loads((folder / "random.json").read_text())
+        self.assertEqual([one["start"] for one in found], 4 * ["rest", "early", "late"])
+        for row, start in zip(done.stdout.splitlines()[2:], ("rest", "early", "late")):
+            own = [one for one in found if one["start"] == start]
+            self.assertEqual(row.split()[:4], [start, "4", str(sum(one["model"] for one in own)), f"{sum(one['static'] for one in own) / 4:.1f}"])
+        lengths = {start: sum(one["number"] for one in found if one["start"] == start) for start in ("rest", "early", "late")}
+        self.assertLess(lengths["late"], lengths["early"])
+        self.assertLess(lengths["early"], lengths["rest"])
+        refused = run(SCRIPTS / "measure_history", "--random", "cycles", "--output", folder)
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("cycles: give cycles or staircases twice, as cycles:staircases", refused.stderr)
+
     def test_says_what_it_cannot_use(self):
         folder = MEASURED[0] / "again"
         for programs, simulation, sentence in [
