@@ -182,10 +182,7 @@ TEST(MapErrorsOfMemory, SaysWhichPromiseItCannotSee) {
                                     "with it"),
             std::string::npos)
       << check.not_shown[0];
-  ASSERT_GT(check.history.size(), 2u);
   EXPECT_EQ(check.history[1].name, "not settled");
-  EXPECT_EQ(check.history[2].name, "not settled, loading");
-  EXPECT_EQ(check.history[2].readings, check.history[1].readings);
   EXPECT_EQ(check.not_shown[1].find("pressures of "), 0u) << check.not_shown[1];
 }
 
@@ -197,17 +194,19 @@ TEST(MapErrorsOfMemory, CoversReplaysFromTheMiddleOfASession) {
   rig.program = {{3, 300e3, 35e3, 8, 6}, {2, 360e3, 12e3, 4, 4}};
   rig.seed = 2;
   const Recording whole = test_support::memoryRecording(rig);
-  double within = 0, open = 0;
+  double within = 0, open = 0, by_direction = 0;
   for (std::size_t first = 20; first + 100 < whole.scans(); first += 30) {
     if (whole.pressure[first] < 60e3 || whole.pressure[first] <= whole.pressure[first - 10]) continue;
     const MapErrors errors = errorsOfMap(calibration, {test_support::partOf(whole, first, first + 100)});
     for (const auto& part : errors.history) {
+      if (part.name.rfind("not settled, ", 0) == 0) by_direction += double(part.readings);
       if (part.name != "not settled") continue;
       within += part.within_one_deviation * double(part.readings);
       open += double(part.readings);
     }
   }
   EXPECT_GT(open, 1000);
+  EXPECT_EQ(by_direction, open);
   EXPECT_GT(within / open, 0.60);
   EXPECT_LT(within / open, 0.76);
 }
