@@ -267,8 +267,9 @@ std::vector<LeftOutSums> HistoryStudy::sumsOf(std::size_t taxel) const {
     LeftOutSums sums(grid_.features());
     calibration::HistoryCourse course;
     for (const HistoryStream& stream : streams_)
-      calibration::addHistoryRows(stream, grid_, taxel, answers, protocolOf(split_.folds[k]),
-                                  calibration::HistoryRows::kReadings, course, sums);
+      calibration::addHistoryRows(
+          stream, grid_, taxel, answers, calibration::HistoryRows::kReadings, course,
+          [&](const auto& scan) -> HistorySums& { return sums.of(scan, protocolOf(split_.folds[k])); });
     sums.finish();
     of_fold.push_back(std::move(sums));
   }

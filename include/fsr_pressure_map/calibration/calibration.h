@@ -126,7 +126,7 @@ struct RemountScore {
 struct HistoryScore {
   struct Protocol {
     std::string name;  ///< e.g. "ramps of 17 kPa/s"
-    /// Of means over half a second, by HistoryFamily [Pa]; that of kNone is the static answer.
+    /// Of readings, by HistoryFamily [Pa]; that of kNone is the static answer.
     std::array<double, 4> rmse = {};
     double corrected_rmse = 0;  ///< with the correction c alone, without operators [Pa]
   };

@@ -255,7 +255,6 @@ TEST_F(HistoryFile, IsRefusedWhereItsModelCannotBeUsed) {
             std::string::npos);
 }
 
-// Of a live map: the flag, what starts the memory anew, and what does not.
 // The play and the memory of these samples follow the same slow course, each with noise of its own. The
 // target is `noise` times the difference of the two, and `loop` times the play's.
 LeftOutSums sumsOf(const HistoryGrid& grid, double noise, double loop) {
@@ -341,6 +340,7 @@ TEST(HistoryChoiceRule, AsksTheMeansWhetherThereIsAMemory) {
       << "it does not help on other protocols";
 }
 
+// Of a live map: the flag, what starts the memory anew, and what does not.
 class LiveHistory : public testing::Test {
  protected:
   static Calibration calibration() {

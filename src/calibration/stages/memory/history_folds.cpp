@@ -197,30 +197,29 @@ HistoryFolds::Answers HistoryFolds::answersOfTables(std::size_t taxel) const {
   return answers;
 }
 
-void HistoryFolds::addRows(std::size_t taxel, const Answers& answers, std::size_t left_out, HistoryRows rows,
-                           LeftOutSums& sums) const {
+void HistoryFolds::addRows(std::size_t taxel, const Answers& answers, HistoryRows rows,
+                           const SumsOfScan& sums_of) const {
   HistoryCourse course;
   for (const HistoryStream& stream : streams_)
-    addHistoryRows(stream, grid_, taxel, answers, left_out, rows, course, sums);
-  sums.finish();
+    addHistoryRows(stream, grid_, taxel, answers, rows, course, sums_of);
 }
 
-// answers_of(taxel): [protocols], for the one that is left out. Taxels are added in their order, so that the
-// result does not depend on the number of threads.
-template <typename AnswersOf>
-std::vector<LeftOutSums> HistoryFolds::sumsOf(HistoryRows rows, AnswersOf&& answers_of) const {
-  std::vector<LeftOutSums> all(count(), LeftOutSums(grid_.features()));
+// fill(taxel, sums) fills the sums [number] of one taxel. Taxels are added in their order, so that the result
+// does not depend on the number of threads.
+template <typename Fill>
+std::vector<LeftOutSums> HistoryFolds::sumsOf(std::size_t number, Fill&& fill) const {
+  std::vector<LeftOutSums> all(number, LeftOutSums(grid_.features()));
   const std::size_t taxels = calibration_.no_model.size();
   for (std::size_t first = 0; first < taxels; first += kTogether) {
     std::vector<std::vector<LeftOutSums>> each(std::min(kTogether, taxels - first));
     matrix::forEachTaxel(each.size(), threads_, [&](std::size_t t) {
       if (calibration_.no_model[first + t] != 0) return;
-      const std::vector<Answers> answers = answers_of(first + t);
-      each[t].assign(count(), LeftOutSums(grid_.features()));
-      for (std::size_t g = 0; g < count(); ++g) addRows(first + t, answers[g], g, rows, each[t][g]);
+      each[t].assign(number, LeftOutSums(grid_.features()));
+      fill(first + t, each[t]);
+      for (LeftOutSums& own : each[t]) own.finish();
     });
     for (const std::vector<LeftOutSums>& own : each) {
-      for (std::size_t g = 0; g < own.size(); ++g) all[g].merge(own[g]);
+      for (std::size_t k = 0; k < own.size(); ++k) all[k].merge(own[k]);
     }
   }
   for (LeftOutSums& sums : all) sums.finish();
@@ -228,22 +227,20 @@ std::vector<LeftOutSums> HistoryFolds::sumsOf(HistoryRows rows, AnswersOf&& answ
 }
 
 std::vector<LeftOutSums> HistoryFolds::leaveOneOut() const {
-  return sumsOf(HistoryRows::kReadings, [this](std::size_t taxel) { return answersWithoutEach(taxel); });
-}
-
-std::vector<LeftOutSums> HistoryFolds::withAllTables() const {
-  return sumsOf(HistoryRows::kMeans,
-                [this](std::size_t taxel) { return std::vector<Answers>(count(), answersOfTables(taxel)); });
-}
-
-HistorySums HistoryFolds::whole() const {
-  std::vector<LeftOutSums> each(calibration_.no_model.size(), LeftOutSums(grid_.features()));
-  forEachModelledTaxel([&](std::size_t taxel) {
-    addRows(taxel, answersOfTables(taxel), count(), HistoryRows::kReadings, each[taxel]);
+  return sumsOf(count(), [this](std::size_t taxel, std::vector<LeftOutSums>& sums) {
+    const std::vector<Answers> answers = answersWithoutEach(taxel);
+    for (std::size_t g = 0; g < count(); ++g)
+      addRows(taxel, answers[g], HistoryRows::kReadings,
+              [&](const auto& scan) -> HistorySums& { return sums[g].of(scan, g); });
   });
-  HistorySums all(grid_.features());
-  for (const LeftOutSums& own : each) all.merge(own.trained);
-  return all;
+}
+
+std::vector<LeftOutSums> HistoryFolds::withAllTables(HistoryRows rows) const {
+  return sumsOf(count() + 1, [this, rows](std::size_t taxel, std::vector<LeftOutSums>& sums) {
+    addRows(taxel, answersOfTables(taxel), rows, [&](const auto& scan) -> HistorySums& {
+      return sums[std::min<std::size_t>(scan.protocol, count())].part(scan.part);
+    });
+  });
 }
 
 // The first operator of the model, among those of the grid.

@@ -78,11 +78,9 @@ class HistoryFolds {
 
   /// The readings of all taxels, [protocols].
   std::vector<LeftOutSums> leaveOneOut() const;
-  /// Means over half a second, with the tables of the calibration, which know all protocols: no difference
-  /// between sessions hides what the readings before do.
-  std::vector<LeftOutSums> withAllTables() const;
-  /// With the tables of the calibration, which were trained on all protocols.
-  HistorySums whole() const;
+  /// With the tables of the calibration, which know all protocols: no difference between sessions hides what
+  /// the readings before do. [protocols + 1], the last of scans of no protocol; nothing is `trained`.
+  std::vector<LeftOutSums> withAllTables(HistoryRows rows) const;
 
   /// Limits the change of a model of these coefficients to that of training.
   void setLimits(const Eigen::VectorXd& coefficients, const std::vector<double>& spreads,
@@ -100,10 +98,9 @@ class HistoryFolds {
   std::size_t count() const { return protocols_.names.size(); }
   std::vector<Answers> answersWithoutEach(std::size_t taxel) const;
   Answers answersOfTables(std::size_t taxel) const;
-  void addRows(std::size_t taxel, const Answers& answers, std::size_t left_out, HistoryRows rows,
-               LeftOutSums& sums) const;
-  template <typename AnswersOf>
-  std::vector<LeftOutSums> sumsOf(HistoryRows rows, AnswersOf&& answers_of) const;
+  void addRows(std::size_t taxel, const Answers& answers, HistoryRows rows, const SumsOfScan& sums_of) const;
+  template <typename Fill>
+  std::vector<LeftOutSums> sumsOf(std::size_t number, Fill&& fill) const;
   OpenDeviation openDeviation(const Eigen::VectorXd& coefficients, const std::vector<double>& spreads) const;
   template <typename Visit>
   void forEachChange(std::size_t taxel, const Answers& answers, const Eigen::VectorXd& coefficients,

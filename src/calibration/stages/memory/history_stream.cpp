@@ -190,8 +190,8 @@ void LeftOutSums::merge(const LeftOutSums& other) {
 }
 
 void addHistoryRows(const HistoryStream& stream, const HistoryGrid& grid, std::size_t taxel,
-                    const std::vector<StaticAnswer>& answers, std::size_t left_out, HistoryRows rows,
-                    HistoryCourse& course, LeftOutSums& sums) {
+                    const std::vector<StaticAnswer>& answers, HistoryRows rows, HistoryCourse& course,
+                    const SumsOfScan& sums_of) {
   const std::size_t n = grid.features();
   std::vector<double> features(n), mean(n);
   double target = 0, count = 0;
@@ -199,7 +199,7 @@ void addHistoryRows(const HistoryStream& stream, const HistoryGrid& grid, std::s
   const auto add = [&] {
     if (count == 0) return;
     for (double& value : mean) value /= count;
-    (row.protocol == left_out ? sums.part(row.part) : sums.trained).add(mean.data(), target / count);
+    sums_of(row).add(mean.data(), target / count);
     std::fill(mean.begin(), mean.end(), 0.0);
     target = count = 0;
   };

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <string>
 #include <utility>
@@ -167,6 +168,10 @@ struct LeftOutSums {
 
   /// The sums of the part, which is made if it is not there.
   HistorySums& part(std::size_t number);
+  /// Those of a scan.
+  HistorySums& of(const HistoryStream::Scan& scan, std::size_t protocol_left_out) {
+    return scan.protocol == protocol_left_out ? part(scan.part) : trained;
+  }
   void finish();
   /// Both must be finished.
   void merge(const LeftOutSums& other);
@@ -176,11 +181,13 @@ struct LeftOutSums {
 /// their means over half a second, in which white noise, which is no memory, counts little.
 enum class HistoryRows { kReadings, kMeans };
 
-/// Adds the readings of one taxel in one recording. `answers` [classes]: for `left_out` to be predicted, they
-/// were trained without this protocol. `course`: see HistoryStream::run(). finish() must follow the last
-/// recording.
+/// The sums to which a scan is added.
+using SumsOfScan = std::function<HistorySums&(const HistoryStream::Scan&)>;
+
+/// Adds the readings of one taxel in one recording. `answers` [classes]; `course`: see HistoryStream::run().
+/// finish() must follow the last recording.
 void addHistoryRows(const HistoryStream& stream, const HistoryGrid& grid, std::size_t taxel,
-                    const std::vector<StaticAnswer>& answers, std::size_t left_out, HistoryRows rows,
-                    HistoryCourse& course, LeftOutSums& sums);
+                    const std::vector<StaticAnswer>& answers, HistoryRows rows, HistoryCourse& course,
+                    const SumsOfScan& sums_of);
 
 }  // namespace fsr::calibration

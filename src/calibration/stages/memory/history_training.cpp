@@ -55,15 +55,19 @@ PartErrors errorsOf(std::size_t protocol, std::size_t part, const HistorySums& s
   return errors;
 }
 
-// Of models that were fitted to all parts.
-Parts errorsOfFit(const HistoryGrid& grid, const std::vector<LeftOutSums>& all) {
+HistorySums allParts(const HistoryGrid& grid, const std::vector<LeftOutSums>& all) {
   HistorySums whole(grid.features());
   for (const LeftOutSums& sums : all) {
     for (const HistorySums& part : sums.left_out) whole.merge(part);
   }
-  const std::vector<Eigen::VectorXd> models = modelsOf(grid, whole);
+  return whole;
+}
+
+// On the protocols, of models that were fitted to all parts.
+Parts errorsOfFit(const HistoryGrid& grid, const std::vector<LeftOutSums>& all, std::size_t protocols) {
+  const std::vector<Eigen::VectorXd> models = modelsOf(grid, allParts(grid, all));
   Parts parts;
-  for (std::size_t g = 0; g < all.size(); ++g) {
+  for (std::size_t g = 0; g < protocols; ++g) {
     for (std::size_t part = 0; part < all[g].left_out.size(); ++part) {
       const HistorySums& own = all[g].left_out[part];
       if (own.samples() > 0) parts.push_back(errorsOf(g, part, own, models));
@@ -118,7 +122,7 @@ class FamilyChoice {
   /// `names` and `sums`: of each protocol that was left out. `means`: see chooseHistory().
   FamilyChoice(const HistoryGrid& grid, const std::vector<std::string>& names,
                const std::vector<LeftOutSums>& sums, const std::vector<LeftOutSums>& means)
-      : means_(errorsOfFit(grid, means)) {
+      : means_(errorsOfFit(grid, means, names.size())) {
     scoreFamilies(grid, names, sums);
   }
 
@@ -270,10 +274,6 @@ HistoryVerdict chooseHistory(const HistoryChoice& choice, const HistoryGrid& gri
   return verdict;
 }
 
-std::vector<HistoryScore::Protocol> familyErrors(const HistoryFolds& folds) {
-  return FamilyChoice(folds.grid(), folds.protocols().names, folds.leaveOneOut(), {}).score().protocols;
-}
-
 void trainHistory(const HistoryProblem& problem, const CalibrationOptions& options,
                   Calibration& calibration) {
   const HistoryChoice& choice = options.history;
@@ -284,15 +284,15 @@ void trainHistory(const HistoryProblem& problem, const CalibrationOptions& optio
     return;
   }
   const HistoryFolds folds(problem, protocols, options.threads, calibration);
-  const HistoryVerdict verdict =
-      chooseHistory(choice, folds.grid(), protocols.names, folds.leaveOneOut(), folds.withAllTables());
+  const HistoryVerdict verdict = chooseHistory(choice, folds.grid(), protocols.names, folds.leaveOneOut(),
+                                               folds.withAllTables(HistoryRows::kMeans));
   if (verdict.score.protocols.empty()) {
     refuse(protocols.names.size(), choice, calibration);
     return;
   }
   calibration.scores.history = verdict.score;
   if (verdict.family == HistoryFamily::kNone) return;
-  const HistorySums whole = folds.whole();
+  const HistorySums whole = allParts(folds.grid(), folds.withAllTables(HistoryRows::kReadings));
   const std::vector<double> spreads = memorySpreads(folds.grid(), whole);
   const Eigen::VectorXd coefficients = fitHistory(verdict.family, folds.grid(), whole);
   calibration.history = historyModel(verdict.family, folds.grid(), coefficients, spreads);

@@ -24,11 +24,6 @@ struct HistoryProblem {
   const Sessions* sessions = nullptr;
 };
 
-class HistoryFolds;
-
-/// The errors of each family on each protocol of `folds` that can be predicted without it.
-std::vector<HistoryScore::Protocol> familyErrors(const HistoryFolds& folds);
-
 /// Chooses and trains the model of the sheet's memory. Each protocol in turn is predicted by tables and
 /// models that were trained without it. `calibration` must have its tables; it receives the model and its
 /// scores. Automatically a family is taken only if it is worse than the static answer beyond chance on no
