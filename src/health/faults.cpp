@@ -402,6 +402,18 @@ void FaultSearch::join(std::size_t taxel, Spells& spells) const {
   }
 }
 
+// By how much a load came and went.
+double swing(const std::vector<double>& load) {
+  std::vector<double> before = load;  // lowest up to each scan
+  for (std::size_t i = 1; i < load.size(); ++i) before[i] = std::min(before[i - 1], load[i]);
+  double most = 0, after = INFINITY;
+  for (std::size_t i = load.size(); i-- > 0;) {
+    after = std::min(after, load[i]);
+    most = std::max(most, load[i] - std::max(before[i], after));
+  }
+  return most;
+}
+
 // Holds the readings at the end of each spell against what is expected. Spells that show nothing do not
 // count; others count by their squared errors, so spells of two kinds are neither.
 std::optional<FaultKind> FaultSearch::kindOf(std::size_t taxel, const Spells& spells) const {
@@ -438,14 +450,16 @@ std::optional<FaultKind> FaultSearch::kindOf(std::size_t taxel, const Spells& sp
       std::sort(reading.begin(), reading.end());
       const auto outside = static_cast<std::size_t>(kOutside * double(reading.size()));
       const auto [low, high] = std::minmax_element(expected.begin(), expected.end());
+      // A lag keeps a reading still while a load comes, but not while it comes and goes.
+      const double lost = kResponds * swing(expected) * stay.unit[taxel];
       // One code for so long that the noise of a sound taxel would have changed it: no open circuit either.
       const bool frozen = reading.back() - reading.front() < code &&
                           std::pow(kept / steps, double(reading.size() - 1)) < options_.level;
       const double most = limit * stay.unit[taxel];
       const double floor = std::max(kOpen, unloaded + (frozen ? -most : most));
-      const auto verdict =
-          verdictOf({reading[outside], reading[reading.size() - 1 - outside], floor, most, INFINITY},
-                    {*high >= kShows, frozen || *high - *low >= std::max(kShows, 2 * limit), false});
+      const auto verdict = verdictOf(
+          {reading[outside], reading[reading.size() - 1 - outside], floor, std::max(most, lost), INFINITY},
+          {*high >= kShows, frozen || *high - *low >= std::max(kShows, 2 * limit), false});
       all += verdict ? square : 0;
       if (verdict == map::taxel_flag::kDead) dead += square;
       if (verdict == map::taxel_flag::kStuck) stuck += square;

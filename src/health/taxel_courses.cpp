@@ -14,8 +14,6 @@ namespace {
 
 // Points of a taxel's curve, and the fewest scans at each.
 constexpr std::size_t kPoints = 24, kScansAtPoint = 12;
-// Response, relative to that of the same taxel elsewhere, below which a curve is that of a fault.
-constexpr double kResponds = 0.3;
 constexpr double kSoundScans = 0.05;  // least share of the loaded scans, to tell a fault from a silent bend
 constexpr double kLeastRange = 0.5;   // of the median range: least unit
 

@@ -11,6 +11,10 @@
 
 namespace fsr::health {
 
+/// Response, relative to that of the same taxel elsewhere, below which a taxel fails. Loops, creep, heat and
+/// wear change how much a taxel reads by a share of it; only what breaks its contact takes most of it away.
+constexpr double kResponds = 0.3;
+
 /// Readings of all taxels in one stay, relative to those of the other taxels. What all taxels share
 /// (pressure, loops, creep, drift, a late clock) is in the median reading and in no deviation.
 ///
@@ -72,7 +76,7 @@ class TaxelCourse {
 
 /// Courses of all stays. The expected reading of a taxel is a robust function of the median reading in the
 /// same stay, so a change of mount is no deviation. Where a taxel responds in one stay to less than
-/// `kResponds` of the change that its readings show in the others, the curve of another stay stands for its
+/// kResponds of the change that its readings show in the others, the curve of another stay stands for its
 /// own: the fault lasts longer there than the sound part.
 std::vector<StayCourses> taxelCourses(const Sheet& sheet);
 

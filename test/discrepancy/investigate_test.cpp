@@ -158,6 +158,20 @@ TEST(Investigate, FindsFaultsByTestsOfTheirOwn) {
   EXPECT_EQ(row.where.taxels, (std::vector<std::size_t>{4, 5, 6, 7}));
 }
 
+// A few taxels that stick once and follow a little of the load are no drift of the sheet.
+TEST(Investigate, NamesAFaultWhereTaxelsHardlyFollowTheLoad) {
+  for (const double share : {0.03, 0.1}) {
+    const DiscrepancyReport report = answerTo(fsr::discrepancy::planted::problemReading(
+        kTwoSpeeds, [&](const fsr::discrepancy::planted::Changed& now) {
+          const bool sticks = now.taxel == 2 && now.time > 0.5 * now.whole;
+          return sticks ? 1500 + share * now.count : now.count;
+        }));
+    ASSERT_EQ(report.verdict, Verdict::kNamed) << report.sentence;
+    EXPECT_EQ(report.effects.at(0).id, "stuck_taxel");
+    EXPECT_EQ(report.effects.size(), 1u);
+  }
+}
+
 TEST(Investigate, FindsTheHumOfTheMains) {
   std::string rig = kTwoSpeeds;  // 50 Hz is no multiple of its scan rate
   rig.replace(rig.find("scan_rate: 2.5"), 14, "scan_rate: 2.7");
