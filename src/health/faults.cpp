@@ -245,7 +245,7 @@ class FaultSearch {
                 double tests) const;
   Course courseOf(std::size_t taxel) const;
   void join(std::size_t taxel, Spells& spells) const;
-  std::optional<FaultKind> kindOf(std::size_t taxel, const Spells& spells) const;
+  std::optional<FaultKind> kindOf(std::size_t taxel, const Spells& spells, double& other) const;
   std::vector<PartGain> gainsOf(std::size_t taxel) const;
   std::optional<Fade> fadeOf(std::size_t taxel) const;
   std::vector<FailingTaxel> failingTaxels() const;
@@ -415,8 +415,9 @@ double swing(const std::vector<double>& load) {
 }
 
 // Holds the readings at the end of each spell against what is expected. Spells that show nothing do not
-// count; others count by their squared errors, so spells of two kinds are neither.
-std::optional<FaultKind> FaultSearch::kindOf(std::size_t taxel, const Spells& spells) const {
+// count; others count by their squared errors, so spells of two kinds are neither. `other`: the squared
+// errors of spells of another kind.
+std::optional<FaultKind> FaultSearch::kindOf(std::size_t taxel, const Spells& spells, double& other) const {
   std::vector<double> sound;
   const double code = 0.5 / sheet_.full_scale;
   double kept = 1, steps = 2;  // readings that are those of the scan before, and all
@@ -465,7 +466,8 @@ std::optional<FaultKind> FaultSearch::kindOf(std::size_t taxel, const Spells& sp
       if (verdict == map::taxel_flag::kStuck) stuck += square;
     });
   }
-  if (all == 0 || std::max(dead, stuck) < kOfOneKind * all) return {};
+  other = all - std::max(dead, stuck);
+  if (all == 0 || other > (1 - kOfOneKind) * all) return {};
   return dead > stuck ? FaultKind::kDeadTaxels : FaultKind::kStuckTaxels;
 }
 
@@ -473,6 +475,7 @@ std::vector<PartGain> FaultSearch::gainsOf(std::size_t taxel) const {
   std::vector<PartGain> gains;
   for (std::size_t v = 0; v < courses_.size(); ++v) {
     const StayCourses& stay = courses_[v];
+    if (stay.foreign[taxel]) continue;  // the gain of another bend is none of this one's
     TaxelCourse course(stay, taxel);
     for (std::size_t part = 0; part < kParts; ++part) {
       const std::size_t from = part * stay.scans() / kParts, to = (part + 1) * stay.scans() / kParts;
@@ -544,8 +547,10 @@ std::vector<FailingTaxel> FaultSearch::failingTaxels() const {
     if (!outlier.span) continue;
     Spells spells = spellsOf(courseOf(taxel), spans[*outlier.span], outlier.limit);
     join(taxel, spells);
-    failing.push_back({taxel, kindOf(taxel, spells), outlier.p, spells, {}});
-    const std::optional<Fade> fade = failing.back().kind ? std::nullopt : fadeOf(taxel);
+    double other = 0;
+    failing.push_back({taxel, kindOf(taxel, spells, other), outlier.p, spells, {}});
+    // What is dead at last may have faded before.
+    const std::optional<Fade> fade = failing.back().kind && other == 0 ? std::nullopt : fadeOf(taxel);
     if (!fade) continue;
     failing.back().kind = FaultKind::kFadingTaxels;
     failing.back().fade = *fade;

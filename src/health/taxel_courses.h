@@ -30,6 +30,7 @@ struct StayCourses {
   /// [taxels x points] [share of full scale].
   Eigen::ArrayXXd curve;
   Eigen::ArrayXd unit, lowest;  ///< [taxels] [share of full scale]
+  std::vector<bool> foreign;    ///< of each taxel: its curve is that of another surface
 
   std::size_t scans() const { return place.size(); }
   double expected(std::size_t taxel, std::size_t scan) const {
@@ -77,7 +78,9 @@ class TaxelCourse {
 /// Courses of all stays. The expected reading of a taxel is a robust function of the median reading in the
 /// same stay, so a change of mount is no deviation. Where a taxel responds in one stay to less than
 /// kResponds of the change that its readings show in the others, the curve of another stay stands for its
-/// own: the fault lasts longer there than the sound part.
+/// own: the fault lasts longer there than the sound part. That of another surface does where there is none of
+/// the same one: the chamber loads all taxels alike on each, so a bend that silences one of them and not its
+/// neighbours has broken its contact.
 std::vector<StayCourses> taxelCourses(const Sheet& sheet);
 
 }  // namespace fsr::health
