@@ -245,7 +245,7 @@ class FaultSearch {
                 double tests) const;
   Course courseOf(std::size_t taxel) const;
   void join(std::size_t taxel, Spells& spells) const;
-  std::optional<FaultKind> kindOf(std::size_t taxel, const Spells& spells) const;
+  std::optional<FaultKind> kindOf(std::size_t taxel, const Spells& spells, double& other) const;
   std::vector<PartGain> gainsOf(std::size_t taxel) const;
   std::optional<Fade> fadeOf(std::size_t taxel) const;
   std::vector<FailingTaxel> failingTaxels() const;
@@ -402,9 +402,22 @@ void FaultSearch::join(std::size_t taxel, Spells& spells) const {
   }
 }
 
+// By how much a load came and went.
+double swing(const std::vector<double>& load) {
+  std::vector<double> before = load;  // lowest up to each scan
+  for (std::size_t i = 1; i < load.size(); ++i) before[i] = std::min(before[i - 1], load[i]);
+  double most = 0, after = INFINITY;
+  for (std::size_t i = load.size(); i-- > 0;) {
+    after = std::min(after, load[i]);
+    most = std::max(most, load[i] - std::max(before[i], after));
+  }
+  return most;
+}
+
 // Holds the readings at the end of each spell against what is expected. Spells that show nothing do not
-// count; others count by their squared errors, so spells of two kinds are neither.
-std::optional<FaultKind> FaultSearch::kindOf(std::size_t taxel, const Spells& spells) const {
+// count; others count by their squared errors, so spells of two kinds are neither. `other`: the squared
+// errors of spells of another kind.
+std::optional<FaultKind> FaultSearch::kindOf(std::size_t taxel, const Spells& spells, double& other) const {
   std::vector<double> sound;
   const double code = 0.5 / sheet_.full_scale;
   double kept = 1, steps = 2;  // readings that are those of the scan before, and all
@@ -438,20 +451,23 @@ std::optional<FaultKind> FaultSearch::kindOf(std::size_t taxel, const Spells& sp
       std::sort(reading.begin(), reading.end());
       const auto outside = static_cast<std::size_t>(kOutside * double(reading.size()));
       const auto [low, high] = std::minmax_element(expected.begin(), expected.end());
+      // A lag keeps a reading still while a load comes, but not while it comes and goes.
+      const double lost = kResponds * swing(expected) * stay.unit[taxel];
       // One code for so long that the noise of a sound taxel would have changed it: no open circuit either.
       const bool frozen = reading.back() - reading.front() < code &&
                           std::pow(kept / steps, double(reading.size() - 1)) < options_.level;
       const double most = limit * stay.unit[taxel];
       const double floor = std::max(kOpen, unloaded + (frozen ? -most : most));
-      const auto verdict =
-          verdictOf({reading[outside], reading[reading.size() - 1 - outside], floor, most, INFINITY},
-                    {*high >= kShows, frozen || *high - *low >= std::max(kShows, 2 * limit), false});
+      const auto verdict = verdictOf(
+          {reading[outside], reading[reading.size() - 1 - outside], floor, std::max(most, lost), INFINITY},
+          {*high >= kShows, frozen || *high - *low >= std::max(kShows, 2 * limit), false});
       all += verdict ? square : 0;
       if (verdict == map::taxel_flag::kDead) dead += square;
       if (verdict == map::taxel_flag::kStuck) stuck += square;
     });
   }
-  if (all == 0 || std::max(dead, stuck) < kOfOneKind * all) return {};
+  other = all - std::max(dead, stuck);
+  if (all == 0 || other > (1 - kOfOneKind) * all) return {};
   return dead > stuck ? FaultKind::kDeadTaxels : FaultKind::kStuckTaxels;
 }
 
@@ -459,6 +475,7 @@ std::vector<PartGain> FaultSearch::gainsOf(std::size_t taxel) const {
   std::vector<PartGain> gains;
   for (std::size_t v = 0; v < courses_.size(); ++v) {
     const StayCourses& stay = courses_[v];
+    if (stay.foreign[taxel]) continue;  // the gain of another bend is none of this one's
     TaxelCourse course(stay, taxel);
     for (std::size_t part = 0; part < kParts; ++part) {
       const std::size_t from = part * stay.scans() / kParts, to = (part + 1) * stay.scans() / kParts;
@@ -530,8 +547,10 @@ std::vector<FailingTaxel> FaultSearch::failingTaxels() const {
     if (!outlier.span) continue;
     Spells spells = spellsOf(courseOf(taxel), spans[*outlier.span], outlier.limit);
     join(taxel, spells);
-    failing.push_back({taxel, kindOf(taxel, spells), outlier.p, spells, {}});
-    const std::optional<Fade> fade = failing.back().kind ? std::nullopt : fadeOf(taxel);
+    double other = 0;
+    failing.push_back({taxel, kindOf(taxel, spells, other), outlier.p, spells, {}});
+    // What is dead at last may have faded before.
+    const std::optional<Fade> fade = failing.back().kind && other == 0 ? std::nullopt : fadeOf(taxel);
     if (!fade) continue;
     failing.back().kind = FaultKind::kFadingTaxels;
     failing.back().fade = *fade;

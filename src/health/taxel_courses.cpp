@@ -14,10 +14,7 @@ namespace {
 
 // Points of a taxel's curve, and the fewest scans at each.
 constexpr std::size_t kPoints = 24, kScansAtPoint = 12;
-// Response, relative to that of the same taxel elsewhere, below which a curve is that of a fault.
-constexpr double kResponds = 0.3;
-constexpr double kSoundScans = 0.05;  // least share of the loaded scans, to tell a fault from a silent bend
-constexpr double kLeastRange = 0.5;   // of the median range: least unit
+constexpr double kLeastRange = 0.5;  // of the median range: least unit
 
 // Scans of a stay by ascending median reading, in groups of about equal size. A part of the groups divides
 // the scans evenly, the other part the readings: a sheet may rest for long.
@@ -176,6 +173,7 @@ void CourseBuilder::fit(StayCourses& courses) {
   courses.curve = curves.value;
   courses.unit.setOnes(taxels);
   courses.lowest.setZero(taxels);
+  courses.foreign.resize(sheet_.used.size());
   curves_.push_back(std::move(curves));
 }
 
@@ -189,20 +187,6 @@ std::size_t CourseBuilder::standIn(std::size_t stay, std::size_t taxel) const {
     }
   }
   return courses_.size();
-}
-
-// Whether a taxel reads about what its curve says in some of the loaded scans.
-bool soundSomewhere(const StayCourses& courses, std::size_t taxel) {
-  const double low = courses.curve.row(taxel).minCoeff(), high = courses.curve.row(taxel).maxCoeff();
-  double loaded = 0, sound = 0;
-  TaxelCourse course(courses, taxel);
-  for (std::size_t i = 0; i < courses.scans(); ++i) {
-    const double expected = courses.expectedReading(taxel, i);
-    if (expected < (low + high) / 2) continue;
-    ++loaded;
-    sound += std::abs(course.reading(i) - expected) < kResponds * (expected - low);
-  }
-  return sound > kSoundScans * loaded;
 }
 
 void CourseBuilder::expect(std::size_t stay, std::size_t taxel) {
@@ -220,9 +204,7 @@ void CourseBuilder::expect(std::size_t stay, std::size_t taxel) {
       curve[k] = other.value(taxel, before) +
                  (place - double(before)) * (other.value(taxel, before + 1) - other.value(taxel, before));
     }
-    // Whether it fails or another bend silences it cannot be told.
-    if (sheet_.stays[from].surface != sheet_.stays[stay].surface && !soundSomewhere(courses, taxel))
-      curve = own.value.row(taxel);
+    courses.foreign[taxel] = sheet_.stays[from].surface != sheet_.stays[stay].surface;
   }
   courses.lowest[taxel] = curve.minCoeff();
   const double range = from == courses_.size() ? 0 : curve.maxCoeff() - curve.minCoeff();

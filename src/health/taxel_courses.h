@@ -11,6 +11,10 @@
 
 namespace fsr::health {
 
+/// Response, relative to that of the same taxel elsewhere, below which a taxel fails. Loops, creep, heat and
+/// wear change how much a taxel reads by a share of it; only what breaks its contact takes most of it away.
+constexpr double kResponds = 0.3;
+
 /// Readings of all taxels in one stay, relative to those of the other taxels. What all taxels share
 /// (pressure, loops, creep, drift, a late clock) is in the median reading and in no deviation.
 ///
@@ -26,6 +30,7 @@ struct StayCourses {
   /// [taxels x points] [share of full scale].
   Eigen::ArrayXXd curve;
   Eigen::ArrayXd unit, lowest;  ///< [taxels] [share of full scale]
+  std::vector<bool> foreign;    ///< of each taxel: its curve is that of another surface
 
   std::size_t scans() const { return place.size(); }
   double expected(std::size_t taxel, std::size_t scan) const {
@@ -72,8 +77,10 @@ class TaxelCourse {
 
 /// Courses of all stays. The expected reading of a taxel is a robust function of the median reading in the
 /// same stay, so a change of mount is no deviation. Where a taxel responds in one stay to less than
-/// `kResponds` of the change that its readings show in the others, the curve of another stay stands for its
-/// own: the fault lasts longer there than the sound part.
+/// kResponds of the change that its readings show in the others, the curve of another stay stands for its
+/// own: the fault lasts longer there than the sound part. That of another surface does where there is none of
+/// the same one: the chamber loads all taxels alike on each, so a bend that silences one of them and not its
+/// neighbours has broken its contact.
 std::vector<StayCourses> taxelCourses(const Sheet& sheet);
 
 }  // namespace fsr::health

@@ -65,6 +65,70 @@ TEST(Faults, ATaxelThatGainsDoesNotFade) {
   EXPECT_TRUE(fading([](double share) { return 0.8 + 0.2 * share; }).taxels.empty());
 }
 
+// Taxels 2 and 9 stick at a count or at their unloaded one, and follow `share` of the load from then on.
+DiscrepancyProblem sticking(const std::string& rig, double count, double share) {
+  return planted::problemReading(rig, [=](const planted::Changed& now) {
+    const bool sticks = (now.taxel == 2 || now.taxel == 9) && now.time > 0.55 * now.whole;
+    return sticks ? count + share * now.count : now.count;
+  });
+}
+
+TEST(Faults, ATaxelThatHardlyFollowsTheLoadAnyLongerIsStuck) {
+  for (const double count : {0, 1500}) {
+    for (const double share : {0.03, 0.1}) {
+      const std::vector<health::Fault> faults = faultsOf(sticking(planted::kTwoSpeeds, count, share));
+      ASSERT_EQ(faults.size(), 1u) << count << " " << share;
+      EXPECT_EQ(effectOf(faults[0]).id, "stuck_taxel");
+      EXPECT_EQ(faults[0].taxels, (std::vector<std::size_t>{2, 9}));
+    }
+  }
+}
+
+// On the second of three surfaces or on the last one, at its unloaded reading or with a little of the load.
+TEST(Faults, ATaxelThatIsSilentOnAWholeSurfaceFails) {
+  for (const std::size_t surface : {1, 2}) {
+    for (const double share : {0.0, 0.03, 0.1}) {
+      const std::vector<health::Fault> faults =
+          faultsOf(planted::problemReading(planted::kTwoSpeeds, [&](const planted::Changed& now) {
+            return now.taxel == 5 && now.recording == surface ? share * now.count : now.count;
+          }));
+      ASSERT_EQ(faults.size(), 1u) << surface << " " << share;
+      EXPECT_EQ(effectOf(faults[0]).id, share == 0 ? "dead_taxel" : "stuck_taxel");
+      EXPECT_EQ(faults[0].taxels, std::vector<std::size_t>{5});
+      EXPECT_NEAR(faults[0].share, 1.0 / 3, 0.01);
+    }
+  }
+}
+
+// A bend changes the gain of a taxel by a share of it.
+TEST(Faults, ATaxelThatABendWeakensIsSound) {
+  EXPECT_TRUE(faultsOf(planted::problemReading(planted::kTwoSpeeds, [](const planted::Changed& now) {
+                return now.taxel == 5 && now.recording == 1 ? now.count / 2 : now.count;
+              })).empty());
+}
+
+TEST(Faults, ATaxelThatStillFollowsHalfOfTheLoadIsNotStuck) {
+  for (const health::Fault& fault : faultsOf(sticking(planted::kTwoSpeeds, 800, 0.5)))
+    EXPECT_NE(effectOf(fault).id, "stuck_taxel");
+}
+
+// What single taxels do of themselves is no fault, however large.
+TEST(Faults, ALagOrALoopOfSingleTaxelsIsNone) {
+  for (const char* more : {"  hysteresis: {loop_width: 0.25, only_taxels: [2, 9]}\n",
+                           "  creep: {per_decade: 0.2, only_taxels: [2, 9]}\n"})
+    EXPECT_TRUE(faultsOf(planted::problem(planted::kTwoSpeeds, more)).empty()) << more;
+  for (const double step : {0.2, 0.1, 0.05}) {
+    double last[12] = {};
+    const std::vector<health::Fault> late =
+        faultsOf(planted::problemReading(planted::kTwoSpeeds, [&](const planted::Changed& now) {
+          double& lag = last[now.taxel];
+          lag += (now.count - lag) * (now.taxel == 2 || now.taxel == 9 ? step : 1);
+          return lag;
+        }));
+    EXPECT_TRUE(late.empty()) << step;
+  }
+}
+
 TEST(Faults, ALineIsFoundWithItsSpells) {
   const std::vector<health::Fault> faults = faultsOf(
       planted::problem(planted::kTwoSpeeds, "  row_fault: {share: 0.04, line: 1, burst: 3, depth: 0.7}\n"));

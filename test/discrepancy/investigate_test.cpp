@@ -133,8 +133,6 @@ TEST(Investigate, NamesCreepAndALeakApart) {
 }
 
 TEST(Investigate, FindsFaultsByTestsOfTheirOwn) {
-  // They fail while they are watched: where a taxel is silent on a surface from the start, the bend may
-  // silence it.
   const DiscrepancyReport dead =
       answerTo(planted(kTwoSpeeds, "  dead_taxel: {taxels: 1, first: 5, start: 1200}\n"));
   ASSERT_EQ(dead.verdict, Verdict::kNamed) << dead.sentence;
@@ -156,6 +154,31 @@ TEST(Investigate, FindsFaultsByTestsOfTheirOwn) {
   ASSERT_EQ(row.verdict, Verdict::kNamed) << row.sentence;
   EXPECT_EQ(row.effects.at(0).id, "row_fault");
   EXPECT_EQ(row.where.taxels, (std::vector<std::size_t>{4, 5, 6, 7}));
+}
+
+// A few taxels that stick once and follow a little of the load are no drift of the sheet.
+TEST(Investigate, NamesAFaultWhereTaxelsHardlyFollowTheLoad) {
+  for (const double share : {0.03, 0.1}) {
+    const DiscrepancyReport report = answerTo(fsr::discrepancy::planted::problemReading(
+        kTwoSpeeds, [&](const fsr::discrepancy::planted::Changed& now) {
+          const bool sticks = now.taxel == 2 && now.time > 0.5 * now.whole;
+          return sticks ? 1500 + share * now.count : now.count;
+        }));
+    ASSERT_EQ(report.verdict, Verdict::kNamed) << report.sentence;
+    EXPECT_EQ(report.effects.at(0).id, "stuck_taxel");
+    EXPECT_EQ(report.effects.size(), 1u);
+  }
+}
+
+TEST(Investigate, NamesATaxelDeadThatIsSilentOnAWholeSurface) {
+  const DiscrepancyReport report = answerTo(fsr::discrepancy::planted::problemReading(
+      kTwoSpeeds, [](const fsr::discrepancy::planted::Changed& now) {
+        return now.taxel == 2 && now.recording == 1 ? 0 : now.count;
+      }));
+  ASSERT_EQ(report.verdict, Verdict::kNamed) << report.sentence;
+  EXPECT_EQ(report.effects.at(0).id, "dead_taxel");
+  EXPECT_EQ(report.where.taxels, std::vector<std::size_t>{2});
+  EXPECT_GT(report.gap.closed, 0.9);
 }
 
 TEST(Investigate, FindsTheHumOfTheMains) {
