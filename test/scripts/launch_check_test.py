@@ -1,7 +1,5 @@
 #!/usr/bin/python3
 """What scripts/launch_check knows of the launch files, of a command line and of a rig file."""
-import importlib.machinery
-import importlib.util
 import pathlib
 import sys
 import tempfile
@@ -10,9 +8,9 @@ import unittest
 PACKAGE = pathlib.Path(__file__).resolve().parent.parent.parent
 
 sys.dont_write_bytecode = True
-loader = importlib.machinery.SourceFileLoader("launch_check", str(PACKAGE / "scripts" / "launch_check"))
-launch_check = importlib.util.module_from_spec(importlib.util.spec_from_loader("launch_check", loader))
-loader.exec_module(launch_check)
+from bare_shell import module  # noqa: E402
+
+launch_check = module("launch_check")
 
 
 def arguments(name):

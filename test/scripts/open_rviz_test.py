@@ -1,7 +1,5 @@
 #!/usr/bin/python3
 """The copy of the shipped configuration that open_rviz makes for the names of the sheets."""
-import importlib.machinery
-import importlib.util
 import os
 import pathlib
 import sys
@@ -13,9 +11,9 @@ PACKAGE = pathlib.Path(__file__).resolve().parent.parent.parent
 SHIPPED = str(PACKAGE / "config" / "rviz" / "sheets.rviz")
 
 sys.dont_write_bytecode = True
-loader = importlib.machinery.SourceFileLoader("open_rviz", str(PACKAGE / "scripts" / "open_rviz"))
-open_rviz = importlib.util.module_from_spec(importlib.util.spec_from_loader("open_rviz", loader))
-loader.exec_module(open_rviz)
+from bare_shell import module  # noqa: E402
+
+open_rviz = module("open_rviz")
 
 
 class OpenRviz(unittest.TestCase):
