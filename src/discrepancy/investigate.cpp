@@ -18,6 +18,7 @@
 #include "discrepancy/samples/measured.h"
 #include "discrepancy/samples/views.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "settings/number_text.h"
 #include "simulation/effects/effect_library.h"
 
 namespace fsr::discrepancy {
@@ -61,6 +62,7 @@ class Investigation {
   void put();
   void startAgain();
   void putDetections();
+  void tellScatter();
   void show();
   simulation::SimulationSettings withFaults(simulation::SimulationSettings settings) const;
   void prove();
@@ -315,6 +317,8 @@ void Investigation::put() {
     report_.added = withEffect(report_.added, refined.effects[e]);
     const simulation::EffectInfo& info = measured_.info(refined.effects[e].id);
     report_.effects.push_back({info.id, info.summary, refined.parameters[e], decision_.z, decision_.closes});
+    if (!info.if_negative.empty() && refined.parameters[e].front().interval.high < 0)
+      report_.limitations.push_back(info.if_negative);
   }
   left_ = refined.trace;
 }
@@ -327,6 +331,27 @@ void Investigation::startAgain() {
   refitStatics();
   takeOutEnabled(measured_, common_, *fit_, report_.base, false);
   refitStatics();
+}
+
+// Noise that no sound sheet has is itself what is missing: a gain that scatters from cycle to cycle by more
+// than data sheets give for a single part (Interlink FSR 400: 2 %), or a reading that wanders over the whole
+// range.
+void Investigation::tellScatter() {
+  constexpr double kRepeatability = 0.02;
+  if (report_.verdict != Verdict::kNone) return;
+  for (const Scatter& one : report_.scatter) {
+    const bool gain = one.part == "cycle_gain";
+    if (!(gain ? one.interval.low > kRepeatability : one.at_map >= measured_.range())) continue;
+    report_.verdict = Verdict::kUnknown;
+    report_.at_map = one.at_map;
+    report_.depends_on = {
+        simulation::name(gain ? simulation::Covariate::kCycle : simulation::Covariate::kClockTime)};
+    report_.limitations.push_back(gain ? "The readings scatter from cycle to cycle by " +
+                                             settings::percentText(one.size, 1) +
+                                             ", which data sheets give for no part."
+                                       : "The reading wanders by more than the range of the pressure.");
+    return;
+  }
 }
 
 // Adds the effects that detectors found to every explanation of the common trace.
@@ -348,7 +373,7 @@ void Investigation::putDetections() {
     report_.depends_on = {simulation::name(odd_.by)};
     report_.where.taxels = odd_.taxels;
   }
-  if (detections_.empty()) return;
+  if (detections_.empty()) return tellScatter();
   if (report_.verdict == Verdict::kUnknown) {
     report_.limitations.push_back("In addition to the unknown discrepancy there is " +
                                   detections_.front().effect.id + ".");

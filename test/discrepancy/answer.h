@@ -39,6 +39,12 @@ inline void expectRecomputable(const DiscrepancyProblem& problem, const Discrepa
   }
 }
 
+/// Whether a member of the credible set contains the effect.
+inline bool inSet(const DiscrepancyReport& report, const std::string& id) {
+  return std::any_of(report.credible_set.begin(), report.credible_set.end(),
+                     [&](const auto& ids) { return std::count(ids.begin(), ids.end(), id) > 0; });
+}
+
 /// The report on a problem. Whatever it says, its statements agree, and the gaps that it states are those of
 /// its simulations, driven through the recordings.
 inline DiscrepancyReport answerTo(const DiscrepancyProblem& problem) {

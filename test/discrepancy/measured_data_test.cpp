@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "dataset/table_recording.h"
+#include "discrepancy/answer.h"
 #include "discrepancy/samples/measured.h"
 #include "fsr_pressure_map/discrepancy/discrepancy.h"
 #include "simulation/rig.h"
@@ -40,11 +41,6 @@ bool holds(const std::vector<std::string>& ids, const std::string& id) {
   return std::find(ids.begin(), ids.end(), id) != ids.end();
 }
 
-bool anywhere(const DiscrepancyReport& report, const std::string& id) {
-  return std::any_of(report.credible_set.begin(), report.credible_set.end(),
-                     [&](const auto& ids) { return holds(ids, id); });
-}
-
 // Force of a piston against its position. The force is counted against the forward stroke, because the
 // reading of a sheet is higher on the way back. The loop is wider than the library permits, so what is
 // written closes only a part of the gap. The friction reverses within 5 mm of a stroke of 41 mm.
@@ -57,8 +53,8 @@ DiscrepancyReport piston(const std::string& table) {
 // One frequency only: a delay shifts the strokes as a loop does. A name would claim too much.
 void expectALoop(const DiscrepancyReport& report) {
   EXPECT_EQ(report.verdict, Verdict::kAmbiguous) << report.sentence;
-  EXPECT_TRUE(anywhere(report, "hysteresis")) << report.sentence;
-  EXPECT_FALSE(anywhere(report, "drift")) << report.sentence;
+  EXPECT_TRUE(inSet(report, "hysteresis")) << report.sentence;
+  EXPECT_FALSE(inSet(report, "drift")) << report.sentence;
   EXPECT_LT(report.gap.after, report.gap.before);
 }
 
@@ -83,7 +79,7 @@ TEST(MeasuredFluid, AirChangesSlowlyAndWithoutAThermometerHasNoName) {
   EXPECT_TRUE(report.verdict == Verdict::kUnknown || report.verdict == Verdict::kAmbiguous)
       << report.sentence;
   EXPECT_TRUE(holds(report.depends_on, "clock_time")) << report.sentence;
-  EXPECT_FALSE(anywhere(report, "hysteresis")) << report.sentence;
+  EXPECT_FALSE(inSet(report, "hysteresis")) << report.sentence;
 }
 
 // Force and pressure were recorded by two clocks; beside that the oil lags.
@@ -130,9 +126,9 @@ TEST(MeasuredInsole, IsALoopOrARelaxationAndTheGapIsThatOfAPlainSpline) {
     problem.options.seed = seed;
     const DiscrepancyReport report = investigate(problem);
     EXPECT_EQ(report.verdict, Verdict::kAmbiguous) << report.sentence;
-    EXPECT_TRUE(anywhere(report, "hysteresis") || anywhere(report, "creep")) << report.sentence;
+    EXPECT_TRUE(inSet(report, "hysteresis") || inSet(report, "creep")) << report.sentence;
     for (const char* id : {"saturation", "mains_pickup", "drift"})
-      EXPECT_FALSE(anywhere(report, id)) << report.sentence;
+      EXPECT_FALSE(inSet(report, id)) << report.sentence;
     EXPECT_NEAR(report.gap.before, plain, 0.05 * plain) << seed;
   }
 }
@@ -140,7 +136,7 @@ TEST(MeasuredInsole, IsALoopOrARelaxationAndTheGapIsThatOfAPlainSpline) {
 // Beside its row the pressure is 0.9 s early at first and 1.7 s late at the end.
 TEST(MeasuredInsole, ALagThatDriftsIsNoConstantDelay) {
   const DiscrepancyReport report = investigate(insole({kStaircase, kFourCycles}, kAsReleased));
-  EXPECT_FALSE(anywhere(report, "time_skew")) << report.sentence;
+  EXPECT_FALSE(inSet(report, "time_skew")) << report.sentence;
 }
 
 // Six taxels drop out for a while or stick; 24 are sound.
@@ -149,7 +145,7 @@ TEST(MeasuredInsole, FaultyTaxelsAreNeitherAHumNorASaturation) {
       investigate(insole({kStaircase, kFourCycles}, kAligned, {"182", "192", "262", "265", "267", "271"}));
   EXPECT_NE(report.verdict, Verdict::kNone) << report.sentence;
   for (const char* id : {"saturation", "mains_pickup", "drift"})
-    EXPECT_FALSE(anywhere(report, id)) << report.sentence;
+    EXPECT_FALSE(inSet(report, id)) << report.sentence;
 }
 
 }  // namespace

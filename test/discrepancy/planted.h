@@ -126,7 +126,7 @@ DiscrepancyProblem problemReading(const std::string& text, Count count) {
 }
 
 /// A rig whose matrix feels the chamber's pressure plus `more` [Pa]. `more` is a function of the pressure, as
-/// a share of 620 kPa, and of the direction. It plants forms that are not in the library.
+/// a share of 620 kPa, of the direction, and of the rate [Pa/s]. It plants forms that are not in the library.
 template <typename More>
 DiscrepancyProblem problemFeeling(const std::string& text, More more) {
   DiscrepancyProblem problem = planted::problem(text, "");
@@ -135,7 +135,7 @@ DiscrepancyProblem problemFeeling(const std::string& text, More more) {
   for (std::size_t m = 0; m < measured.samples(); ++m) {
     const double share = std::clamp(measured.pressure[m] / 620e3, 0.0, 1.0);
     dataset::Recording& recording = felt[measured.visits[measured.visit[m]].recording];
-    recording.pressure[measured.first_scan[m]] += more(share, measured.direction[m]);
+    recording.pressure[measured.first_scan[m]] += more(share, measured.direction[m], measured.rate[m]);
   }
   simulation::DrivenRig rig(problem.simulation);
   for (std::size_t r = 0; r < felt.size(); ++r) {
@@ -152,7 +152,7 @@ DiscrepancyProblem problemFeeling(const std::string& text, More more) {
 /// which a play operator cannot do.
 inline DiscrepancyProblem crossedLoop() {
   constexpr double kPi = 3.14159265358979323846;
-  return problemFeeling(kTwoSpeeds, [](double share, int direction) {
+  return problemFeeling(kTwoSpeeds, [](double share, int direction, double) {
     return -direction * 20e3 * (std::sin(kPi * share) + std::sin(2 * kPi * share));
   });
 }

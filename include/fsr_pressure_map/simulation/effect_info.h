@@ -191,8 +191,10 @@ struct EffectInfo {
       false;  ///< its course is random, or its phase unknown: no simulation repeats that of a recording
   bool slow = false;          ///< changes from cycle to cycle, hardly within a cycle
   bool any_course = false;    ///< slow, and its form can imitate any other slow effect
+  bool same_at_each_pace = false;  ///< of one size at each pace; what slow cycles want larger is another effect
   bool mixture = false;       ///< sums of it with several shapes are forms of the same effect
   bool with_bending = false;  ///< belongs to the simplest simulation of a bent sensor
+  std::string if_negative = {};  ///< sentence where a strength below zero was found
   std::string also_called = {};  ///< name in data sheets, where it could be confused with another effect
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "discrepancy/decide/pace.h"
 #include "discrepancy/fit/signatures.h"
 #include "discrepancy/fit/static_fit.h"
 #include "discrepancy/samples/available_evidence.h"
@@ -288,6 +289,7 @@ void Search::run() {
   if (appraisal_.p > options_.level) return measureSizes();
   pairUp();
   dropSizesOfNone();
+  dropPhases();
   measureSizes();
 }
 
@@ -361,6 +363,35 @@ void Search::dropSizesOfNone() {
   };
   auto& set = appraisal_.credible;
   set.erase(std::remove_if(set.begin(), set.end(), none), set.end());
+}
+
+// A trace that `part` should explain, without what wrong sizes of the enabled effects add to it.
+Trace Search::withoutEnabled(const Trace& trace, const Trace& part) const {
+  if (always_.empty()) return trace;
+  Eigen::MatrixXd columns(trace.size(), static_cast<Eigen::Index>(always_.size()) + 1);
+  columns.col(0) = part;
+  for (std::size_t k = 0; k < always_.size(); ++k)
+    columns.col(static_cast<Eigen::Index>(k) + 1) = fit_.residual(columns_.col(always_[k]));
+  Eigen::VectorXd sizes = columns.colPivHouseholderQr().solve(trace);
+  sizes[0] = 0;
+  return trace - columns * sizes;
+}
+
+// What shifts slow cycles by more time than fast ones is a phase and no delay.
+void Search::dropPhases() {
+  const auto phase = [&](std::size_t e) {
+    const Fitted& fit = fitted(appraisal_.all[e]);
+    const Forward forward(measured_, common_, fit_, base_, fit.refined.state_kept);
+    for (std::size_t k = 0; k < fit.refined.effects.size(); ++k) {
+      if (!measured_.info(fit.refined.effects[k].id).same_at_each_pace) continue;
+      const Trace part = forward.explained({fit.refined.effects[k]}, {fit.bent_only[k]});
+      const Trace wanted = fit_.residual(common_.all) - (fit.refined.trace - part);
+      if (!isSameAtEachPace(measured_, part, withoutEnabled(wanted, part))) return true;
+    }
+    return false;
+  };
+  auto& set = appraisal_.credible;
+  set.erase(std::remove_if(set.begin(), set.end(), phase), set.end());
 }
 
 }  // namespace fsr::discrepancy

@@ -64,6 +64,8 @@ class Search {
   double meanSlope() const;
   void measureSizes();
   void dropSizesOfNone();
+  void dropPhases();
+  Trace withoutEnabled(const Trace& trace, const Trace& part) const;
 
   const Measured& measured_;
   const CommonTraces& common_;

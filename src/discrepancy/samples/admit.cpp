@@ -329,6 +329,11 @@ const simulation::EffectLibrary& Measured::effects() const {
   return library ? *library : simulation::EffectLibrary::shipped();
 }
 
+double Measured::range() const {
+  const auto [low, high] = std::minmax_element(pressure.begin(), pressure.end());
+  return *high - *low;
+}
+
 std::size_t Measured::usedTaxels() const {
   return static_cast<std::size_t>(std::count(used.begin(), used.end(), 1));
 }

@@ -10,11 +10,6 @@ namespace fsr::discrepancy {
 
 namespace {
 
-double pressureRange(const Measured& measured) {
-  const auto [low, high] = std::minmax_element(measured.pressure.begin(), measured.pressure.end());
-  return *high - *low;
-}
-
 // Calls use(scan, sample) for the scans of a visit in order.
 template <typename Use>
 void eachScan(const Measured& measured, const Visit& visit, Use use) {
@@ -84,7 +79,7 @@ FaultyReadings readingsOf(const Measured& measured, const health::Faults& found)
 }  // namespace
 
 double leastGap(const Measured& measured, const DiscrepancyOptions& options) {
-  return std::isnan(options.least_gap) ? options.least_gap_share * pressureRange(measured)
+  return std::isnan(options.least_gap) ? options.least_gap_share * measured.range()
                                        : options.least_gap;
 }
 
@@ -92,7 +87,7 @@ Faults findFaults(const Measured& measured, const DiscrepancyOptions& options,
                   const health::FaultProgress& progress) {
   health::FaultOptions limits;
   limits.level = options.level;
-  limits.least_error = leastGap(measured, options) / pressureRange(measured);
+  limits.least_error = leastGap(measured, options) / measured.range();
   const health::Faults found = health::findFaults(sheetOf(measured), limits, progress);
   return {found.faults, readingsOf(measured, found)};
 }

@@ -109,6 +109,7 @@ struct Measured {
 
   std::size_t samples() const { return time.size(); }
   std::size_t taxels() const { return layout.size.taxels(); }
+  double range() const;  ///< highest less lowest pressure [Pa]
   std::size_t usedTaxels() const;
   std::size_t fitCycles() const;
   /// What the static curves are functions of, at each sample: `load`, or `pressure` where nothing was

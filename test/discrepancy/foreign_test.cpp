@@ -1,0 +1,117 @@
+// Readings whose phase is not that of their load, gains of single presses, and a decay after each motion. The
+// right answers were written down before the search was asked.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "discrepancy/answer.h"
+#include "discrepancy/decide/pace.h"
+
+namespace fsr::discrepancy {
+namespace {
+
+constexpr double kTurn = 2 * 3.14159265358979323846;
+constexpr double kMean = 310e3;  // [Pa]
+
+const std::string kTwoPaces =
+    planted::withProgram(R"(  - cycles: {peak: 620000, rate: 40000, dwell_peak: 4, cycles: 4}
+  - cycles: {peak: 620000, rate: 12000, dwell_peak: 4, cycles: 3}
+)");
+
+// Wanted sizes of an effect at paces from 5 to 80 kPa/s: pace^-exponent, of each second cycle a little more.
+bool sameAtEachPace(double exponent, double more = 0.02) {
+  Measured measured;
+  Trace part(40), wanted(40);
+  for (std::size_t c = 0; c < 10; ++c) {
+    const double pace = 5e3 * std::pow(2, static_cast<double>(c % 5));
+    measured.cycles.push_back({0, 4 * c, 4 * c + 4});
+    measured.rate.insert(measured.rate.end(), {pace, -pace, pace, -pace});
+    const auto first = static_cast<Eigen::Index>(4 * c);
+    part.segment(first, 4) << 1, -1, 1, -1;
+    wanted.segment(first, 4) = part.segment(first, 4) * (std::pow(pace, -exponent) * (c % 2 ? 1 + more : 1));
+  }
+  return isSameAtEachPace(measured, part, wanted);
+}
+
+TEST(Pace, TellsADelayFromFriction) {
+  EXPECT_TRUE(sameAtEachPace(0));
+  EXPECT_TRUE(sameAtEachPace(0.3));
+  EXPECT_FALSE(sameAtEachPace(1));
+  EXPECT_FALSE(sameAtEachPace(-1));
+  EXPECT_TRUE(sameAtEachPace(0, 0.0)) << "of one size, exactly";
+  EXPECT_TRUE(sameAtEachPace(1, 50.0)) << "not certain";
+}
+
+// A rig whose chamber is run in sines of these periods [s], one after the other. It feels `felt` of the time
+// and the period.
+template <typename Felt>
+DiscrepancyReport sines(const std::vector<double>& periods, Felt felt) {
+  DiscrepancyProblem problem = planted::problem(planted::kOneSpeed, "");
+  simulation::DrivenRig rig(problem.simulation);
+  for (dataset::Recording& recording : problem.recordings) {
+    dataset::Recording feels = recording;
+    const double part = recording.time.back() / static_cast<double>(periods.size());
+    for (std::size_t i = 0; i < recording.scans(); ++i) {
+      const double time = recording.time[i];
+      const double period = periods[std::min(periods.size() - 1, static_cast<std::size_t>(time / part))];
+      recording.pressure[i] = kMean * (1 - std::cos(kTurn * time / period));
+      feels.pressure[i] = felt(time, period);
+    }
+    rig.run(feels, [&](std::size_t scan, const simulation::SensorChain& chain) {
+      const auto& counts = chain.counts();
+      std::copy(counts.begin(), counts.end(),
+                recording.counts.begin() + static_cast<std::ptrdiff_t>(scan * counts.size()));
+    });
+  }
+  return answerTo(problem);
+}
+
+// Fitted to both paces together, the delay is -0.52 and 0.44 s.
+TEST(Foreign, DamperAtTwoPacesIsNoDelay) {
+  for (const auto& [force, power] : {std::pair{15e3, 0.0}, std::pair{-15e3, 0.3}}) {
+    const DiscrepancyReport report =
+        answerTo(planted::problemFeeling(kTwoPaces, [&](double, int, double rate) {
+          return std::copysign(std::pow(std::abs(rate) / 40e3, power), rate) * force;
+        }));
+    EXPECT_FALSE(inSet(report, "time_skew")) << report.sentence;
+    EXPECT_EQ(report.verdict, Verdict::kUnknown) << report.sentence;
+  }
+}
+
+TEST(Foreign, ClockThatIsAheadIsADelayBelowZero) {
+  const DiscrepancyReport report = sines({20, 60}, [](double time, double period) {
+    return kMean * (1 - std::cos(kTurn * (time + 0.4) / period));
+  });
+  ASSERT_EQ(report.verdict, Verdict::kNamed) << report.sentence;
+  EXPECT_EQ(report.effects.at(0).id, "time_skew");
+  EXPECT_NEAR(report.effects.at(0).parameters.at(0).value, -0.4, 0.02);
+  EXPECT_TRUE(std::any_of(report.limitations.begin(), report.limitations.end(),
+                          [](const std::string& said) { return said.find("ahead") != std::string::npos; }));
+}
+
+// Gains of presses, drawn once from N(1, 0.08).
+TEST(Foreign, ScatterOfTheGainBeyondThatOfAnyPartIsUnknown) {
+  const double gains[] = {1.1, 0.93, 1.05, 0.88, 1.02, 0.97, 1.12, 0.9, 1.0, 0.95, 1.07};
+  const DiscrepancyReport report =
+      answerTo(planted::problemReading(kTwoPaces, [&](const planted::Changed& now) {
+        return now.count * gains[(static_cast<std::size_t>(now.loads) + 3 * now.recording) % 11];
+      }));
+  EXPECT_EQ(report.verdict, Verdict::kUnknown) << report.sentence;
+  EXPECT_EQ(report.depends_on, std::vector<std::string>{"cycle"});
+}
+
+// Each change of the load adds to the reading, up or down alike, and what it added fades over 20 s.
+TEST(Foreign, DecayAfterEachMotionHasNoName) {
+  double fading = 0, before = 0;
+  const DiscrepancyReport report =
+      answerTo(planted::problemFeeling(kTwoPaces, [&](double share, int, double) {
+        fading = 0.98 * fading + std::abs(share - before);
+        before = share;
+        return -31e3 * fading;
+      }));
+  EXPECT_EQ(report.verdict, Verdict::kUnknown) << report.sentence;
+}
+
+}  // namespace
+}  // namespace fsr::discrepancy
