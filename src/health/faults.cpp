@@ -286,8 +286,8 @@ std::vector<Line> FaultSearch::linesOf(const std::vector<FaultKind>& kinds) cons
 }
 
 // Calls use(stay, scan, values) for each scan. Values: the deviations of all taxels; the median of those of
-// each line, in which what less than half of its taxels do does not count; and the contrast of each line,
-// which is its median less those of the lines beside it.
+// each line, in which what at most half of its taxels do does not count; and the contrast of each line, which
+// is its median less those of the lines beside it.
 template <typename Use>
 void FaultSearch::eachScan(const std::vector<Line>& lines, Use use) const {
   const auto taxels = static_cast<Eigen::Index>(sheet_.used.size());
@@ -303,7 +303,8 @@ void FaultSearch::eachScan(const std::vector<Line>& lines, Use use) const {
         for (const std::size_t t : lines[l].taxels) of_line.push_back(values[t]);
         const auto middle = of_line.begin() + of_line.size() / 2;
         std::nth_element(of_line.begin(), middle, of_line.end());
-        median[l] = *middle;
+        const double below = of_line.size() % 2 ? *middle : *std::max_element(of_line.begin(), middle);
+        median[l] = std::abs(below) < std::abs(*middle) ? below : *middle;
       }
       for (std::size_t l = 0; l < lines.size(); ++l) {
         double beside = 0;

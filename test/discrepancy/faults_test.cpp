@@ -155,6 +155,19 @@ TEST(Faults, ALoopOfOneRowIsNoLooseContact) {
   EXPECT_TRUE(faults.empty()) << effectOf(faults.front()).id;
 }
 
+// Half of a row that does something else does not make the row fail.
+TEST(Faults, ALagOfHalfOfARowIsNoLooseContact) {
+  double last[20] = {};
+  const std::vector<health::Fault> faults =
+      faultsOf(planted::problemReading(planted::withMatrix(5, 4), [&](const planted::Changed& now) {
+        const bool slow = now.taxel == 9 || now.taxel == 10 || now.taxel == 13 || now.taxel == 14;
+        double& lag = last[now.taxel];
+        lag += (now.count - lag) * 0.01;
+        return slow ? now.count - 0.1 * lag : now.count;
+      }));
+  EXPECT_TRUE(faults.empty()) << effectOf(faults.front()).id;
+}
+
 TEST(Faults, WhatIsSmallerThanTheLeastGapIsNone) {
   DiscrepancyProblem problem =
       planted::problem(planted::kTwoSpeeds, "  row_fault: {share: 0.04, line: 1, burst: 3, depth: 0.7}\n");
