@@ -156,6 +156,11 @@ static void modelMembers(MembersWriter& list, const calibration::Calibration& ca
   }
 }
 
+static void members(MembersWriter& list, const calibration::HistoryScore::Part& part) {
+  list("readings", part.name)("count", part.readings)("static_rmse", part.static_rmse)("rmse", part.rmse);
+  list("within_one_deviation", part.within_one_deviation);
+}
+
 // What training chose, by `score`, which has no sentence where it was not asked for: null.
 template <typename Score, typename Model>
 static Json chosen(const Score& score, const Model& model) {
@@ -199,10 +204,6 @@ static void members(MembersWriter& list, const calibration::Calibration& calibra
 
 Json budgetJson(const calibration::ErrorBudget& budget) {
   return resultIf(budget.present(), budget);
-}
-
-Json historyProtocolsJson(const calibration::HistoryScore& score) {
-  return resultOf(score.protocols);
 }
 
 std::string calibrationJson(const calibration::Calibration& calibration) {

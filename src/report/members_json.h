@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -58,10 +57,6 @@ class MembersWriter {
   Json json(const std::pair<First, Second>& values) const {
     return Json::array({json(values.first), json(values.second)});
   }
-  template <typename T>
-  Json json(const std::optional<T>& value) const {
-    return value ? json(*value) : Json(nullptr);
-  }
 };
 
 template <typename T>
@@ -112,22 +107,12 @@ inline void members(MembersWriter& list, const dataset::SensorIdentity& sensor) 
   list("model", sensor.model)("sealing", sensor.sealing)("transducer", sensor.transducer);
 }
 
-inline void members(MembersWriter& list, const matrix::Layout& layout) {
-  list("rows", layout.size.rows)("columns", layout.size.columns);
-  list("pitch_x", layout.pitch_x)("pitch_y", layout.pitch_y);
-}
-
 inline void members(MembersWriter& list, const calibration::HistoryScore::Protocol& protocol) {
   list("protocol", protocol.name).under("rmse", [&](MembersWriter& rmse) {
     constexpr const char* kFamilies[] = {"static", "plays", "memories", "both"};
     for (std::size_t f = 0; f < protocol.rmse.size(); ++f) rmse(kFamilies[f], protocol.rmse[f]);
     rmse("correction_alone", protocol.corrected_rmse);
   });
-}
-
-inline void members(MembersWriter& list, const calibration::HistoryScore::Part& part) {
-  list("readings", part.name)("count", part.readings)("static_rmse", part.static_rmse)("rmse", part.rmse);
-  list("within_one_deviation", part.within_one_deviation);
 }
 
 inline void members(MembersWriter& list, const calibration::SourceBag& bag) {

@@ -1,6 +1,5 @@
 #include <string>
 
-#include "report/calibration_report.h"
 #include "report/members_json.h"
 #include "report/study/study_report.h"
 #include "study/paper.h"
@@ -144,7 +143,7 @@ Json historyChoiceJson(const calibration::HistoryScore& score) {
   if (score.choice.empty()) return nullptr;
   return {{"assessable", !score.protocols.empty()},
           {"choice", score.choice},
-          {"protocols", historyProtocolsJson(score)}};
+          {"protocols", resultOf(score.protocols)}};
 }
 
 }  // namespace
