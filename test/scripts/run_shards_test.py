@@ -6,7 +6,6 @@ Exit status 77 (SKIPPED) where the programs are not installed.
 
 import os
 import pathlib
-import re
 import shutil
 import signal
 import socket
