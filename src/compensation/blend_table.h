@@ -24,8 +24,6 @@ struct CurvaturePlace {
   /// two.
   std::size_t inner = 0;
   double beyond = 0;
-
-  bool onClass() const { return below == above && beyond == 0; }
 };
 
 /// `curvature` [classes], in any order, with at least one value that is not NaN. Classes of NaN are ignored.

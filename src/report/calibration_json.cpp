@@ -131,14 +131,14 @@ static void members(MembersWriter& list, const calibration::ErrorIntervals& inte
   const auto& by_direction = intervals.by_direction;
   covered("loading", by_direction[0][0], by_direction[1][0]);
   covered("unloading", by_direction[0][1], by_direction[1][1]);
-  list.result("deviation_of_the_map", resultIf(intervals.scale.present(), intervals.scale));
+  list("deviation_of_the_map", resultIf(intervals.scale.present(), intervals.scale));
   covered("taxels", intervals.by_taxel[0], intervals.by_taxel[1]);
 }
 
 static void members(MembersWriter& list, const calibration::ErrorBudget& budget) {
   list("share_of_range", calibration::kBudgetShares)("pressure_pa", budget.pressure)("lines", budget.lines);
   list("held_out_pa", budget.held_out)("combined_pa", budget.combined)("coverage_factor", 2);
-  list.result("intervals", resultIf(budget.intervals.present(), budget.intervals));
+  list("intervals", resultIf(budget.intervals.present(), budget.intervals));
 }
 
 // The options that the model uses.
@@ -156,11 +156,16 @@ static void modelMembers(MembersWriter& list, const calibration::Calibration& ca
   }
 }
 
+static void members(MembersWriter& list, const calibration::HistoryScore::Part& part) {
+  list("readings", part.name)("count", part.readings)("static_rmse", part.static_rmse)("rmse", part.rmse);
+  list("within_one_deviation", part.within_one_deviation);
+}
+
 // What training chose, by `score`, which has no sentence where it was not asked for: null.
 template <typename Score, typename Model>
 static Json chosen(const Score& score, const Model& model) {
   if (score.choice.empty()) return nullptr;
-  MembersWriter list(false);
+  MembersWriter list;
   list("choice", score.choice);
   members(list, model);
   if constexpr (std::is_same_v<Score, calibration::HistoryScore>) {
@@ -188,21 +193,17 @@ static void members(MembersWriter& list, const calibration::Calibration& calibra
     below("pitch_y", layout.pitch_y)("full_scale", calibration.tables.full_scale);
   });
   list("trained", calibration.trained)("provenance", calibration.provenance);
-  list.result("correction", resultIf(calibration.correction.present(), calibration.correction));
+  list("correction", resultIf(calibration.correction.present(), calibration.correction));
   list("warnings", calibration.warnings)("coverage", calibration.coverage);
-  list.result("scores", resultIf(!scores.conditions.empty(), scores));
-  list.result("history", chosen(scores.history, calibration.history));
-  list.result("session", chosen(scores.session, calibration.session_zero));
-  list.result("temperature", chosen(scores.temperature, calibration.temperature));
-  list.result("error_budget", budgetJson(calibration.budget));
+  list("scores", resultIf(!scores.conditions.empty(), scores));
+  list("history", chosen(scores.history, calibration.history));
+  list("session", chosen(scores.session, calibration.session_zero));
+  list("temperature", chosen(scores.temperature, calibration.temperature));
+  list("error_budget", budgetJson(calibration.budget));
 }
 
 Json budgetJson(const calibration::ErrorBudget& budget) {
   return resultIf(budget.present(), budget);
-}
-
-Json historyProtocolsJson(const calibration::HistoryScore& score) {
-  return resultOf(score.protocols);
 }
 
 std::string calibrationJson(const calibration::Calibration& calibration) {

@@ -43,7 +43,6 @@ std::string temperatureText(const calibration::Calibration& calibration);
 std::string historyText(const calibration::Calibration& calibration);
 /// The choice with the errors of each family on each protocol.
 std::string historyChoiceText(const calibration::HistoryScore& score);
-Json historyProtocolsJson(const calibration::HistoryScore& score);
 /// A table of errors of the static answer and with a model of the sheet's memory; "" if there are none.
 std::string historyTable(const std::vector<calibration::HistoryScore::Part>& parts);
 

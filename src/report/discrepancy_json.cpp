@@ -33,7 +33,7 @@ static void members(MembersWriter& list, const discrepancy::HeldOutGap& held) {
   Json parts = Json::array();
   for (const auto& [part, closed] : held.parts) parts.push_back({{"part", part}, {"closed", closed}});
   list("by", held.by)("closed", held.closed);
-  list.pair("closed_interval", held.closed_interval.low, held.closed_interval.high).result("parts", parts);
+  list.pair("closed_interval", held.closed_interval.low, held.closed_interval.high)("parts", parts);
 }
 
 static void members(MembersWriter& list, const discrepancy::CoveredPressures& one) {
@@ -48,7 +48,7 @@ static void members(MembersWriter& list, const discrepancy::Gap& gap) {
   const auto interval = [&](const char* name, const discrepancy::Interval& one) {
     list.pair(name, one.low, one.high);
   };
-  list.result("unit", "fraction of full scale")("before", gap.before);
+  list("unit", "fraction of full scale")("before", gap.before);
   interval("before_interval", gap.before_interval);
   list("after", gap.after);
   interval("after_interval", gap.after_interval);
@@ -145,7 +145,7 @@ Json predictionMembers(const discrepancy::Prediction& prediction) {
 }  // namespace
 
 Json discrepancyMembers(const discrepancy::DiscrepancyReport& report) {
-  MembersWriter list(false);
+  MembersWriter list;
   const auto& next = report.next_experiment;
   list("verdict", discrepancy::name(report.verdict))("sentence", report.sentence);
   list("first_screen", firstScreen(report))("effects", report.effects);
@@ -155,10 +155,10 @@ Json discrepancyMembers(const discrepancy::DiscrepancyReport& report) {
   list("smallest_seen", report.smallest_seen)("too_small", report.too_small)("scatter", report.scatter);
   list("answers", report.answers)("options", report.options)("where", report.where)("gap", report.gap);
   list("recompute", report.recompute)("map_gain", report.map_gain)("in_use", report.in_use);
-  list.result("next_experiment", next.empty() ? Json(nullptr) : resultOf(next.front()));
+  list("next_experiment", next.empty() ? Json(nullptr) : resultOf(next.front()));
   list("candidates", report.candidates)("tested", report.tested)("limitations", report.limitations);
   list("curves", report.curves)("steps", report.steps)("simulation", report.base.name);
-  list("next_experiments", next).result("prediction", predictionMembers(report.prediction));
+  list("next_experiments", next)("prediction", predictionMembers(report.prediction));
   list("prediction_hash", report.prediction.hash)("inputs", report.inputs)("seed", report.seed);
   return list("version", report.version).object;
 }

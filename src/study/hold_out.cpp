@@ -10,7 +10,8 @@
 #include "matrix/for_each_taxel.h"
 #include "study/evaluation.h"
 #include "study/paper.h"
-#include "study/study_pieces.h"
+#include "study/study_context.h"
+#include "study/unit_bootstrap.h"
 
 namespace fsr::study {
 
@@ -48,48 +49,34 @@ std::vector<StudyMethod> methodsOf(const StudyContext& study) {
 // One split: its methods and what they share.
 class HeldOutMethods {
  public:
-  HeldOutMethods(const StudyContext& study, const Split& split, bool first)
-      : study_(study), split_(split), first_(first), methods_(methodsOf(study)) {}
+  HeldOutMethods(const StudyContext& study, const Split& split, bool first, StudyResult& result)
+      : study_(study), split_(split), first_(first), result_(result) {}
 
-  // The methods of each piece, by index. The figure needs the errors of both methods that it shows.
-  std::vector<std::vector<std::size_t>> pieces() const {
-    std::vector<std::vector<std::size_t>> all;
-    for (std::size_t m = 0; m < methods_.size(); ++m) {
-      const bool together = first_ && m > 0 && isDrawn(methods_[m - 1]) && isDrawn(methods_[m]);
-      if (together) all.back().push_back(m);
-      if (!together) all.push_back({m});
-    }
-    return all;
-  }
-  void compute(const std::vector<std::size_t>& chosen, StudyPiece& result);
+  std::vector<StudyScore> scores();
 
  private:
   Validation validation() const { return {split_.grouping, split_.folds, Scoring::kPooled}; }
   std::vector<double> bandwidthsFor(const StudyMethod& method);
   std::vector<FoldModel> modelsOf(const StudyMethod& method, const std::vector<double>& bandwidth) const;
-  Evaluation evaluate(const StudyMethod& method, StudyPiece& result);
+  Evaluation evaluate(const StudyMethod& method);
   void addHistory(const StudyMethod& method, const std::vector<FoldModel>& models,
-                  const std::vector<double>& bandwidth, StudyPiece& result) const;
+                  const std::vector<double>& bandwidth);
 
   const StudyContext& study_;
   const Split& split_;
   const bool first_;  // of the splits
-  const std::vector<StudyMethod> methods_;
-  std::vector<double> of_per_curvature_;  // bandwidths; empty = not chosen yet
+  StudyResult& result_;
+  std::vector<StudyScore> scores_;
+  std::optional<StudyScore> with_history_;
+  std::vector<double> of_per_curvature_;  // bandwidths
 };
 
-// Schemes beyond the paper use the bandwidths that are chosen for per_curvature. Where another computer
-// scores per_curvature, they are chosen here, too.
+// Schemes beyond the paper, which come last, use the bandwidths that are chosen for per_curvature.
 std::vector<double> HeldOutMethods::bandwidthsFor(const StudyMethod& method) {
-  const bool further = isFurther(method);
-  if (!further && method.id != kPerCurvature)
-    return chooseBandwidths(study_.data, method, validation(), study_.plan);
-  if (of_per_curvature_.empty()) {
-    const auto chooser = std::find_if(methods_.begin(), methods_.end(),
-                                      [](const StudyMethod& one) { return one.id == kPerCurvature; });
-    of_per_curvature_ = chooseBandwidths(study_.data, *chooser, validation(), study_.plan);
-  }
-  return of_per_curvature_;
+  if (isFurther(method)) return of_per_curvature_;
+  const std::vector<double> chosen = chooseBandwidths(study_.data, method, validation(), study_.plan);
+  if (method.id == kPerCurvature) of_per_curvature_ = chosen;
+  return chosen;
 }
 
 std::vector<FoldModel> HeldOutMethods::modelsOf(const StudyMethod& method,
@@ -104,22 +91,22 @@ std::vector<FoldModel> HeldOutMethods::modelsOf(const StudyMethod& method,
 
 // Adds the static answer of per_curvature with a model of the sheet's memory; nothing if no reading counts.
 void HeldOutMethods::addHistory(const StudyMethod& method, const std::vector<FoldModel>& models,
-                                const std::vector<double>& bandwidth, StudyPiece& result) const {
+                                const std::vector<double>& bandwidth) {
   const std::string stage = split_.id + ", history";
   study_.say(stage, 0, study_.data.taxels.size());
   const HistoryStudy history(study_.data, split_, models, study_.plan);
   if (history.verdict().score.protocols.empty()) return;
-  result.history = history.verdict().score;
+  result_.history = history.verdict().score;
   const Evaluation evaluation = history.evaluate(method, study_.counting(stage));
   StudyScore score = scoreOf(study_.data, method, evaluation);
   score.id = "history";
   score.label = "History";
   score.rmse_interval = rmseInterval(CycleSums(study_.data, evaluation), study_.data, study_.plan);
   score.bandwidth = bandwidth;
-  result.with_history = score;
+  with_history_ = score;
 }
 
-Evaluation HeldOutMethods::evaluate(const StudyMethod& method, StudyPiece& result) {
+Evaluation HeldOutMethods::evaluate(const StudyMethod& method) {
   const std::string stage = split_.id + ", " + method.id;
   study_.say(stage, 0, study_.data.taxels.size());
   const std::vector<double> bandwidth = bandwidthsFor(method);
@@ -128,23 +115,26 @@ Evaluation HeldOutMethods::evaluate(const StudyMethod& method, StudyPiece& resul
   StudyScore score = scoreOf(study_.data, method, evaluation);
   score.rmse_interval = rmseInterval(CycleSums(study_.data, evaluation), study_.data, study_.plan);
   score.bandwidth = bandwidth;
-  result.held_out.push_back(score);
+  scores_.push_back(score);
   if (first_ && study_.plan.beyond_the_paper && bent(study_.data))
-    result.curvature_errors.push_back(curvatureErrorsOf(study_, method, validation(), models));
-  if (split_.id == kProtocolSplit && method.id == kPerCurvature)
-    addHistory(method, models, bandwidth, result);
+    result_.curvature_errors.push_back(curvatureErrorsOf(study_, method, validation(), models));
+  if (split_.id == kProtocolSplit && method.id == kPerCurvature) addHistory(method, models, bandwidth);
   return evaluation;
 }
 
-void HeldOutMethods::compute(const std::vector<std::size_t>& chosen, StudyPiece& result) {
+std::vector<StudyScore> HeldOutMethods::scores() {
   std::vector<Evaluation> drawn;
-  for (const std::size_t m : chosen) {
-    Evaluation evaluation = evaluate(methods_[m], result);
-    if (first_ && isDrawn(methods_[m])) drawn.push_back(std::move(evaluation));
+  for (const StudyMethod& method : methodsOf(study_)) {
+    Evaluation evaluation = evaluate(method);
+    if (!first_ || !isDrawn(method)) continue;
+    drawn.push_back(std::move(evaluation));
+    if (drawn.size() < 2) continue;
+    const std::size_t place = figureTaxel(study_.data, study_.plan, drawn[1].rmse_percent);
+    result_.response = taxelResponse(study_.data, place, drawn[0], drawn[1]);
+    drawn.clear();
   }
-  if (drawn.size() < 2) return;
-  const std::size_t place = figureTaxel(study_.data, study_.plan, drawn[1].rmse_percent);
-  result.response = taxelResponse(study_.data, place, drawn[0], drawn[1]);
+  if (with_history_) scores_.push_back(*with_history_);
+  return scores_;
 }
 
 double rmse(const StudyScore& score) {
@@ -169,16 +159,9 @@ std::vector<Split> splitsOf(const StudyContext& study) {
   return possible;
 }
 
-std::vector<PlannedPiece> holdOutPieces(const StudyContext& study, const std::vector<Split>& splits) {
-  std::vector<PlannedPiece> pieces;
-  for (const Split& split : splits) {
-    const auto methods = std::make_shared<HeldOutMethods>(study, split, pieces.empty());
-    for (const std::vector<std::size_t>& chosen : methods->pieces()) {
-      pieces.push_back(
-          {split.id, [methods, chosen](StudyPiece& result) { methods->compute(chosen, result); }});
-    }
-  }
-  return pieces;
+void holdOut(const StudyContext& study, const std::vector<Split>& splits, StudyResult& result) {
+  for (std::size_t s = 0; s < splits.size(); ++s)
+    result.splits[s].scores = HeldOutMethods(study, splits[s], s == 0, result).scores();
 }
 
 StudyHeadline headlineOf(const std::vector<SplitResult>& splits) {

@@ -8,7 +8,7 @@
 #include "compensation/blend_table.h"
 #include "study/evaluation.h"
 #include "study/fold.h"
-#include "study/study_pieces.h"
+#include "study/study_context.h"
 
 namespace fsr::study {
 

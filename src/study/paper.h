@@ -66,8 +66,6 @@ struct StudyMethod {
   std::size_t models() const;
   /// The model that is trained on the class; models() if there is none.
   std::size_t modelOf(std::size_t curvature_class) const;
-  /// Classes that the model is trained on.
-  const std::vector<std::size_t>& trainedOn(std::size_t model) const { return plan.models[model].trained_on; }
 };
 
 /// The paper's seven methods, in the order of its tables: flat, baseline, methods 1 to 4, and method 2 with a

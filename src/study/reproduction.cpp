@@ -1,17 +1,23 @@
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <set>
 
 #include "compensation/learn_scheme.h"
 #include "matrix/for_each_taxel.h"
 #include "statistics/random_stream.h"
 #include "study/evaluation.h"
-#include "study/study_pieces.h"
+#include "study/study_context.h"
+#include "study/unit_bootstrap.h"
 
 namespace fsr::study {
 
 namespace {
+
+// A method's score, with its squared errors by cycle for the intervals of differences between methods.
+struct ScoredMethod {
+  StudyScore score;
+  CycleSums sums;
+};
 
 statistics::RepeatedMeasures measuresOf(const std::vector<const ScoredMethod*>& scored,
                                         std::vector<double> StudyScore::*measure) {
@@ -47,9 +53,9 @@ ScoredMethod scoreAlgorithm(const StudyContext& study, const Split& split, const
   return scored;
 }
 
-StudyComparison compare(const StudyParts& parts, const std::string& id, const std::string& title,
+StudyComparison compare(const StudyContext& study, const std::string& id, const std::string& title,
                         const std::vector<const ScoredMethod*>& scored) {
-  const StudyPlan& plan = parts.frame.plan;
+  const StudyPlan& plan = study.plan;
   StudyComparison comparison{id, title, {}, {}, {}, {}};
   for (const ScoredMethod* const one : scored) comparison.scores.push_back(one->score);
   comparison.r2 = statistics::paperRule(measuresOf(scored, &StudyScore::r2), plan.tests);
@@ -58,88 +64,66 @@ StudyComparison compare(const StudyParts& parts, const std::string& id, const st
     for (std::size_t j = i + 1; j < scored.size(); ++j) {
       comparison.differences.push_back(
           {scored[i]->score.label, scored[j]->score.label,
-           differenceInterval(scored[i]->sums, scored[j]->sums, parts.units, plan)});
+           differenceInterval(scored[i]->sums, scored[j]->sums, study.data, plan)});
     }
   }
   return comparison;
 }
 
-// The scores of a part in the order of `ids`, without those that there are not.
-std::vector<const ScoredMethod*> pick(const StudyParts& parts, const std::string& part,
+// The scores in the order of `ids`, without those that there are not.
+std::vector<const ScoredMethod*> pick(const std::vector<ScoredMethod>& scored,
                                       const std::vector<std::string>& ids) {
   std::vector<const ScoredMethod*> picked;
   for (const std::string& id : ids) {
-    for (const auto& [number, piece] : parts.computed) {
-      if (piece.part != part) continue;
-      for (const ScoredMethod& one : piece.compared)
-        if (one.score.id == id) picked.push_back(&one);
-    }
+    for (const ScoredMethod& one : scored)
+      if (one.score.id == id) picked.push_back(&one);
   }
   return picked;
 }
 
-constexpr char kAlgorithms[] = "algorithms";
-constexpr char kMethods[] = "methods";
-
 }  // namespace
 
-std::vector<PlannedPiece> comparisonPieces(const StudyContext& study) {
-  std::vector<PlannedPiece> pieces;
-  const auto split = std::make_shared<const Split>(leaveSectionOut(study.data));
-  const auto add = [&](const std::string& id, const std::string& label) {
-    pieces.push_back({kAlgorithms, [&study, split, id, label](StudyPiece& result) {
-                        result.compared.push_back(scoreAlgorithm(study, *split, id, label));
-                      }});
-  };
-  add("linear", "Linear regression");
-  add("grnn", "GRNN");
-  add("forest", "Random forest");
+std::vector<StudyComparison> comparisonsOf(const StudyContext& study) {
+  const Split split = leaveSectionOut(study.data);
+  const std::vector<ScoredMethod> algorithms = {scoreAlgorithm(study, split, "linear", "Linear regression"),
+                                                scoreAlgorithm(study, split, "grnn", "GRNN"),
+                                                scoreAlgorithm(study, split, "forest", "Random forest")};
+  std::vector<ScoredMethod> methods;
   for (const StudyMethod& method : study.methods) {
-    pieces.push_back({kMethods, [&study, split, &method](StudyPiece& result) {
-                        result.compared.push_back(score(study, method, *split,
-                                                        grnnOf(study.plan.grnn, study.plan.grnn.bandwidth),
-                                                        method.label));
-                      }});
+    methods.push_back(
+        score(study, method, split, grnnOf(study.plan.grnn, study.plan.grnn.bandwidth), method.label));
   }
-  return pieces;
-}
-
-std::vector<StudyComparison> comparisonsOf(const StudyParts& parts) {
   std::vector<StudyComparison> comparisons;
-  comparisons.push_back(compare(parts, "algorithms", "Algorithms on the baseline (the paper's Fig. 6)",
-                                pick(parts, kAlgorithms, {"linear", "grnn", "forest"})));
-  comparisons.push_back(compare(parts, "flat_against_all",
+  comparisons.push_back(compare(study, "algorithms", "Algorithms on the baseline (the paper's Fig. 6)",
+                                pick(algorithms, {"linear", "grnn", "forest"})));
+  comparisons.push_back(compare(study, "flat_against_all",
                                 "Flat against all curvatures (the paper's Table 2)",
-                                pick(parts, kMethods, {"flat_only", "baseline"})));
-  comparisons.push_back(
-      compare(parts, "methods", "Methods (the paper's Table 3)",
-              pick(parts, kMethods,
-                   {"baseline", "per_curvature", "curvature_input", "flat_or_curved", "binary_input"})));
-  const std::vector<const ScoredMethod*> inputs = pick(parts, kMethods, {"curvature_input", "one_hot"});
+                                pick(methods, {"flat_only", "baseline"})));
+  comparisons.push_back(compare(
+      study, "methods", "Methods (the paper's Table 3)",
+      pick(methods, {"baseline", "per_curvature", "curvature_input", "flat_or_curved", "binary_input"})));
+  const std::vector<const ScoredMethod*> inputs = pick(methods, {"curvature_input", "one_hot"});
   if (inputs.size() == 2) {
-    comparisons.push_back(compare(parts, "one_hot", "Method 2 with a one-hot input", inputs));
+    comparisons.push_back(compare(study, "one_hot", "Method 2 with a one-hot input", inputs));
   }
   return comparisons;
 }
 
-std::vector<PlannedPiece> bandwidthPieces(const StudyContext& study) {
-  std::vector<PlannedPiece> pieces;
-  const auto split = std::make_shared<const Split>(leaveSectionOut(study.data));
+std::vector<BandwidthCurve> bandwidthCurves(const StudyContext& study) {
+  std::vector<BandwidthCurve> curves;
+  const Split split = leaveSectionOut(study.data);
   for (std::size_t m = 0; m < study.methods.size(); ++m) {
     const StudyMethod& method = study.methods[m];
     if (method.plan.scheme == compensation::Scheme::kOneHot) continue;
-    pieces.push_back(
-        {"bandwidths", [&study, split, &method, m](StudyPiece& result) {
-           study.say("Grid of bandwidths", m, study.methods.size());
-           const Grouping kept =
-               downSampled(split->grouping, method.one_of, study.plan.down_sampling, study.plan.seed);
-           result.bandwidths.push_back(
-               {method.id, method.label,
-                bandwidthScores(study.data, method, {kept, split->folds, Scoring::kByModel}, study.plan)});
-           study.say("Grid of bandwidths", m + 1, study.methods.size());
-         }});
+    study.say("Grid of bandwidths", m, study.methods.size());
+    const Grouping kept =
+        downSampled(split.grouping, method.one_of, study.plan.down_sampling, study.plan.seed);
+    curves.push_back(
+        {method.id, method.label,
+         bandwidthScores(study.data, method, {kept, split.folds, Scoring::kByModel}, study.plan)});
+    study.say("Grid of bandwidths", m + 1, study.methods.size());
   }
-  return pieces;
+  return curves;
 }
 
 namespace {

@@ -6,7 +6,7 @@
 
 #include "calibration/sources.h"
 #include "calibration/stages/memory/history_training.h"
-#include "study/study_pieces.h"
+#include "study/study_context.h"
 
 namespace fsr::study {
 
@@ -56,30 +56,12 @@ StudyResult describe(const StudyProblem& problem, const StudyData& data, const s
     result.splits.push_back({split.id, split.description, {}, {}});
     for (const Fold& fold : split.folds) result.splits.back().folds.push_back(fold.name);
   }
-  // Stays if no piece has chosen a model.
+  // Stays if no split chooses a model.
   if (problem.plan.beyond_the_paper) {
     result.history.choice =
         "not assessable: " + calibration::whyNoProtocolIsLeftOut(data.protocols.names.size()) + ".";
   }
   return result;
-}
-
-std::vector<PlannedPiece> piecesOf(const StudyContext& study, const std::vector<Split>& splits) {
-  std::vector<PlannedPiece> pieces;
-  for (const std::vector<PlannedPiece>& some :
-       {comparisonPieces(study), bandwidthPieces(study), holdOutPieces(study, splits)})
-    pieces.insert(pieces.end(), some.begin(), some.end());
-  return pieces;
-}
-
-SplitResult& splitNamed(const std::string& id, StudyResult& result) {
-  return *std::find_if(result.splits.begin(), result.splits.end(),
-                       [&](const SplitResult& split) { return split.id == id; });
-}
-
-template <typename T>
-void append(const std::vector<T>& some, std::vector<T>& all) {
-  all.insert(all.end(), some.begin(), some.end());
 }
 
 }  // namespace
@@ -101,49 +83,19 @@ Evaluation StudyContext::evaluateMethod(const StudyMethod& method, const Validat
   return evaluate(data, method, validation, models, plan, counting(stage));
 }
 
-StudyParts computeParts(const StudyProblem& problem, const std::function<bool(std::size_t)>& wanted,
-                        const StudyProgress& progress) {
+StudyResult study(const StudyProblem& problem, const StudyProgress& progress) {
   validate(problem.plan, "study " + problem.plan.name);
   StudyData data = gatherStudyData(problem.recordings, problem.plan.sections);
   std::vector<StudyMethod> methods = paperMethods(data, problem.plan.binary_share);
   leaveOutSecondInputs(problem.plan, methods, data);
   const StudyContext context{problem.plan, data, methods, progress};
   const std::vector<Split> splits = splitsOf(context);
-  StudyParts parts;
-  parts.frame = describe(problem, data, splits);
-  parts.units = cycleUnits(data);
-  const std::vector<PlannedPiece> pieces = piecesOf(context, splits);
-  parts.pieces_of_study = pieces.size();
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    if (wanted && !wanted(i)) continue;
-    StudyPiece& piece = parts.computed[i];
-    piece.part = pieces[i].part;
-    pieces[i].compute(piece);
-  }
-  return parts;
-}
-
-StudyResult joinParts(const StudyParts& parts) {
-  StudyResult result = parts.frame;
-  result.comparisons = comparisonsOf(parts);
-  for (const auto& [number, piece] : parts.computed) {
-    append(piece.bandwidths, result.bandwidths);
-    append(piece.curvature_errors, result.curvature_errors);
-    if (!piece.held_out.empty()) append(piece.held_out, splitNamed(piece.part, result).scores);
-    if (piece.response) result.response = *piece.response;
-  }
-  // The last score of its split.
-  for (const auto& [number, piece] : parts.computed) {
-    if (!piece.with_history) continue;
-    splitNamed(piece.part, result).scores.push_back(*piece.with_history);
-    result.history = piece.history;
-  }
-  if (result.plan.beyond_the_paper) result.headline = headlineOf(result.splits);
+  StudyResult result = describe(problem, data, splits);
+  result.comparisons = comparisonsOf(context);
+  result.bandwidths = bandwidthCurves(context);
+  holdOut(context, splits, result);
+  if (problem.plan.beyond_the_paper) result.headline = headlineOf(result.splits);
   return result;
-}
-
-StudyResult study(const StudyProblem& problem, const StudyProgress& progress) {
-  return joinParts(computeParts(problem, {}, progress));
 }
 
 }  // namespace fsr::study

@@ -9,29 +9,11 @@
 
 namespace fsr::study {
 
-/// What the bootstrap resamples.
-struct CycleUnits {
-  std::vector<std::size_t> mount;  ///< of each cycle
-  bool by_mount = false;           ///< each surface was mounted more than once: mounts are a level, too
-};
-CycleUnits cycleUnits(const StudyData& data);
-
 /// Squared errors of a method by cycle. From them the scores of any resampled set of cycles or mounts are
 /// computed.
 class CycleSums {
  public:
-  struct Values {
-    std::size_t taxels = 0, models = 0, cycles = 0;
-    double range = 0;              ///< of the pressure of all scans [Pa]
-    std::vector<double> squares;   ///< [cycles x models x taxels] [Pa^2]
-    std::vector<double> readings;  ///< [cycles x models], number for each taxel
-  };
-
-  CycleSums() = default;
   CycleSums(const StudyData& data, const Evaluation& evaluation);
-  explicit CycleSums(Values values);
-
-  const Values& values() const { return values_; }
 
   /// The cycles with readings, ascending.
   std::vector<std::size_t> cycles() const;
@@ -43,9 +25,10 @@ class CycleSums {
   double rmse(const std::vector<std::size_t>& cycles) const;
 
  private:
-  void addUp();
-
-  Values values_;
+  std::size_t taxels_, models_, cycles_;
+  double range_;                     // of the pressure of all scans [Pa]
+  std::vector<double> squares_;      // [cycles x models x taxels] [Pa^2]
+  std::vector<double> readings_;     // [cycles x models], number for each taxel
   std::vector<double> all_squares_;  // [cycles], summed over taxels and models [Pa^2]
 };
 
@@ -61,6 +44,6 @@ statistics::BootstrapResult rmseInterval(const std::vector<double>& squares,
                                          const StudyPlan& plan);
 /// Interval of first - second, both computed from the same draws.
 statistics::BootstrapResult differenceInterval(const CycleSums& first, const CycleSums& second,
-                                               const CycleUnits& units, const StudyPlan& plan);
+                                               const StudyData& data, const StudyPlan& plan);
 
 }  // namespace fsr::study

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "support/holds.h"
+
 namespace fsr::dataset {
 namespace {
 
@@ -48,11 +50,7 @@ TEST(Conditioning, IsNotSeenWhereTheFirstCyclesAreLikeTheOthers) {
   const Conditioning absent = only({bag("a.bag", 0, {620, 620, 620, 620, 620}), bag("b.bag", 1, {620, 620})});
   EXPECT_FALSE(absent.present());
   EXPECT_EQ(absent.cycles, 0u);
-  EXPECT_EQ(
-      sentence(absent).find("conditioning: not seen: the first loadings of a sheet differ from later ones "
-                            "(four or five cycles to 682 kPa before the first recording"),
-      0u)
-      << sentence(absent);
+  EXPECT_TRUE(test_support::holds(sentence(absent), {"conditioning: not seen", "682 kPa"}));
 }
 
 // A program of full cycles and then partial ones looks alike, but its first peaks are far above 110 %.
@@ -64,10 +62,7 @@ TEST(Conditioning, IsNotAProgramThatGoesOnWithSmallerCycles) {
 TEST(Conditioning, SaysThatThreeCyclesAreTooFew) {
   const Conditioning few = only({bag("a.bag", 0, {682, 682, 682, 620, 620})});
   EXPECT_FALSE(few.present());
-  EXPECT_EQ(
-      sentence(few),
-      "conditioning: 3 cycles to 682 kPa seen, fewer than four: the first loadings of a sheet differ from "
-      "later ones");
+  EXPECT_TRUE(test_support::holds(sentence(few), {"conditioning: 3 cycles to 682 kPa", "fewer than four"}));
 }
 
 TEST(Conditioning, IsBelievedWhereTheOperatorSaysIt) {

@@ -100,17 +100,15 @@ TEST(Coverage, ListsThinCellsWorstFirst) {
 }
 
 TEST(Coverage, SaysThatThereIsOneSurfaceOnlyOrThatPeaksDiffer) {
-  EXPECT_EQ(
-      coverageOf({bag("a", {{"flat", 0.0}}, 20)}, 5).thin.at(0),
-      "there is one surface only: the error on any other one is unknown and can be many times as large");
+  EXPECT_TRUE(
+      test_support::holds(coverageOf({bag("a", {{"flat", 0.0}}, 20)}, 5).thin.at(0), {"one surface only"}));
   SyntheticRig low;
   low.name = "b";
   low.surfaces = {{"bent", 10.0}};
   low.peak = 300e3;
-  EXPECT_EQ(
-      coverageOf({bag("a", {{"flat", 0.0}}), syntheticRecording(low)}, 5).thin.at(0),
-      "bent was loaded to 300 kPa only, others to 600 kPa: above that, readings on it and between it and "
-      "its neighbours are lower limits");
+  EXPECT_TRUE(
+      test_support::holds(coverageOf({bag("a", {{"flat", 0.0}}), syntheticRecording(low)}, 5).thin.at(0),
+                          {"bent", "to 300 kPa only", "600 kPa", "lower limits"}));
   low.peak = 580e3;
   low.cycles = 20;
   EXPECT_TRUE(coverageOf({bag("a", {{"flat", 0.0}}, 20), syntheticRecording(low)}, 5).thin.empty());

@@ -240,8 +240,7 @@ TEST(RecordingBuilder, LeavesOutSpikesOfTheReferenceThatTheSheetDoesNotFeel) {
   ASSERT_EQ(recording.scans(), expected.scans());
   for (std::size_t i = 0; i < recording.scans(); ++i)
     EXPECT_NEAR(recording.pressure[i], expected.pressure[i], 1e3) << i;
-  EXPECT_EQ(recording.warnings.back(),
-            "left out 12 chamber pressures that jump away and back while the sheet feels nothing");
+  EXPECT_TRUE(test_support::holds(recording.warnings.back(), {"left out 12 chamber pressures"}));
 }
 
 TEST(RecordingBuilder, KeepsPulsesThatTheSheetFeelsAndAReferenceThatIsNotOfTheSheet) {

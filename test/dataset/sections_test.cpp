@@ -6,6 +6,7 @@
 #include <random>
 #include <set>
 
+#include "support/holds.h"
 #include "support/synthetic_recording.h"
 
 namespace fsr::dataset {
@@ -118,10 +119,8 @@ TEST(Sections, DivideByTimeWithAWarningWhereCyclesAreFew) {
   const Sections sections = divideIntoSections(recording, 5);
   EXPECT_EQ(sequenceOf(recording, sections, 0), (std::vector<std::uint32_t>{0, 1, 2, 3, 4}));
   ASSERT_EQ(sections.warnings.size(), 1u);
-  EXPECT_EQ(
-      sections.warnings.front(),
-      "synthetic.bag, \"flat\": 3 cycles are fewer than the 5 sections, which are cut by time instead: a "
-      "cycle then stands on both sides of a split, and the scores flatter");
+  EXPECT_TRUE(test_support::holds(sections.warnings.front(),
+                                  {"synthetic.bag, \"flat\"", "3 cycles", "5 sections", "by time instead"}));
 }
 
 TEST(Sections, DivideAConstantPressureByTimeWithAWarning) {
@@ -129,9 +128,7 @@ TEST(Sections, DivideAConstantPressureByTimeWithAWarning) {
   for (double& pressure : recording.pressure) pressure = 3e3;
   const Sections sections = divideIntoSections(recording, 5);
   EXPECT_EQ(sequenceOf(recording, sections, 0), (std::vector<std::uint32_t>{0, 1, 2, 3, 4}));
-  EXPECT_EQ(
-      sections.warnings.at(0),
-      "synthetic.bag, \"flat\": the chamber pressure never changes, so that there is nothing to learn from");
+  EXPECT_TRUE(test_support::holds(sections.warnings.at(0), {"synthetic.bag, \"flat\"", "never changes"}));
 }
 
 TEST(Sections, ExcludeAScanWithoutPressure) {

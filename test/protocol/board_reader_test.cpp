@@ -13,6 +13,7 @@
 #include "fsr_pressure_map/protocol/wire.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "protocol/serial_port.h"
+#include "support/holds.h"
 #include "support/link_listener.h"
 #include "support/pty.h"
 
@@ -142,8 +143,8 @@ TEST_F(BoardReader, ReportsAnExceptionOfTheHandlerAsItsFaultAndKeepsTheLink) {
   EXPECT_EQ(report.reason, "") << "nothing is wrong with the port";
   EXPECT_EQ(report.connections, 1U);
   EXPECT_EQ(report.handler_faults, 1U);
-  EXPECT_EQ(report.handler_complaint,
-            "handling a transducer reading failed in this program, not on the link: no room for reading 2");
+  EXPECT_TRUE(test_support::holds(report.handler_complaint,
+                                  {"a transducer reading", "not on the link", "no room for reading 2"}));
 }
 
 TEST_F(BoardReader, KeepsTheLinkWhateverTheHandlerThrows) {

@@ -8,8 +8,6 @@ the other rostests. NOT_RUN lists what cannot run here.
 import collections
 import concurrent.futures
 import contextlib
-import importlib.machinery
-import importlib.util
 import math
 import os
 import pathlib
@@ -28,6 +26,9 @@ import rospy
 import rostest
 
 SOURCE = pathlib.Path(__file__).resolve().parent.parent.parent
+sys.path.insert(0, str(SOURCE / "test/scripts"))
+from bare_shell import module  # noqa: E402
+
 PROGRAMS = pathlib.Path(os.environ["CMAKE_PREFIX_PATH"].split(":")[0]) / "lib" / "fsr_pressure_map"
 PAGES = [SOURCE / "README.md", *sorted((SOURCE / "docs").glob("*.md"))]
 BUSY = 2        # CPU time of one program [s]
@@ -67,8 +68,7 @@ NOT_RUN = {
     "scripts/follow_trials": "computes for hours",
     "scripts/prove_effects": "computes for hours",
     "scripts/score_cases": "scores what blind trials made in hours; test/blind",
-    "scripts/run_shards": "computes for hours; test/scripts/run_shards_test.py",
-    "rosrun fsr_pressure_map study --merge": "merges shards of minutes; test/scripts/run_shards_test.py",
+    "scripts/run_shards": "computes for hours; scripts.run_shards",
     "rosrun fsr_pressure_map day_report": "needs a conducted session; ros.day",
     "rosrun image_view": "needs a screen",
     "gcc -std=c99 check.c": "needs the program on that page; test/protocol/wire_format_document_test.cpp compiles it",
@@ -152,13 +152,6 @@ def all_commands():
 
 def reason_not_to_run(command):
     return next((start for start in NOT_RUN if command.startswith(start)), None)
-
-
-def launch_check():
-    loader = importlib.machinery.SourceFileLoader("launch_check", str(SOURCE / "scripts" / "launch_check"))
-    module = importlib.util.module_from_spec(importlib.util.spec_from_loader("launch_check", loader))
-    loader.exec_module(module)
-    return module
 
 
 def write_socket(path):
@@ -323,7 +316,7 @@ class CommandsTest(unittest.TestCase):
                 self.assertEqual({name for name in names - {"--help"} if name not in said.stdout}, set())
 
     def test_launch_files_take_the_arguments(self):
-        check = launch_check()
+        check = module("launch_check")
         commands = self.of("roslaunch ")
         self.assertGreater(len(commands), 30)
         for command in commands:

@@ -1,27 +1,20 @@
 #!/usr/bin/python3
 """A whole day at the emulated rig: the shipped launch files, an operator who makes mistakes, and the report of the day.
 
-Nothing is called between rig, launch files and the report. Rig time runs 20 times as fast as real time.
+Nothing is called between rig, launch files and the report.
 """
 import html.parser
 import json
-import os
-import pathlib
 import signal
 import subprocess
-import tempfile
 import threading
-import unittest
 
 import rosnode
-import rospkg
 import rospy
 import rostest
+from conducted_session import ConductedSession
 from fsr_pressure_map.msg import Instruction
-from rosgraph_msgs.msg import Clock
 from std_msgs.msg import String
-
-SURFACES = pathlib.Path(rospkg.RosPack().get_path("fsr_pressure_map")) / "config/surfaces"
 
 PLAN = """
 plan: day
@@ -37,7 +30,6 @@ program:
 # Steps: 1 mount, 2 to 5 conditioning, 6 rest, 7 to 11 cycles, 12 rest; 13 mount, 14 rest, 15 to 19 cycles, 20 rest.
 STEPS = {"peak_too_low": 8, "leak": 9, "board_unplugged": 16, "terminal_closed": 18}
 REMARKS = ("planned are 500 kPa", "leak", "no reading of the chamber pressure")  # a closed terminal cannot say anything
-LINK = "day_port"
 SECTIONS = ("What was recorded", "Whether the bags are fit", "How good the calibration is", "What the sheet does that the simulation lacks",
             "What to record next", "Every step", "How to compute it again")
 
@@ -69,43 +61,21 @@ class Page(html.parser.HTMLParser):
         self.in_heading = False
 
 
-class DayTest(unittest.TestCase):
+class DayTest(ConductedSession):
     def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.home = pathlib.Path(self.folder.name)
-        (self.home / "day.yaml").write_text(PLAN)
-        self.running, self.remarks = [], []
-        self.over, self.reported = threading.Event(), threading.Event()
-        rospy.Subscriber("/fsr/instruction", Instruction, self.hear)
+        self.reported = threading.Event()
+        super().setUp()
         rospy.Subscriber("/fsr/rig_emulator/acts", String, self.close_terminal)
 
-    def tearDown(self):
-        for one in reversed(self.running):
-            one.send_signal(signal.SIGINT)
-        for one in self.running:
-            one.wait(30)
-        self.folder.cleanup()
-
     def hear(self, instruction):
-        if instruction.remark and instruction.remark not in self.remarks:
-            self.remarks.append(instruction.remark)
-        if instruction.kind == Instruction.DONE:
-            self.over.set()
-            if "The report of the day" in instruction.remark and "being written" not in instruction.remark:
-                self.reported.set()
+        super().hear(instruction)
+        said = instruction.remark
+        if instruction.kind == Instruction.DONE and "The report of the day" in said and "being written" not in said:
+            self.reported.set()
 
     def close_terminal(self, act):
         if act.data == "close the terminal of the conductor":
             rosnode.kill_nodes(["/fsr/conduct"])
-
-    def launch(self, name, *arguments):
-        here = dict(os.environ, PWD=str(self.home))  # as a shell would say it
-        self.running.append(subprocess.Popen(["roslaunch", "fsr_pressure_map", name, *arguments], cwd=self.home, env=here))
-
-    def start_rig(self, link, mistakes, *parameters):
-        rospy.set_param("/use_sim_time", True)
-        self.running.append(subprocess.Popen(["rosrun", "fsr_pressure_map", "clumsy_rig_node", "__ns:=fsr", "_operator:=true", "_change:=20",
-                                              "_time_scale:=20", f"_link:={link}", f"_mistakes:={mistakes}", *parameters]))
 
     def tool(self, *words):
         done = subprocess.run(["rosrun", "fsr_pressure_map", *map(str, words)], cwd=self.home, stdout=subprocess.PIPE,
@@ -137,15 +107,7 @@ class DayTest(unittest.TestCase):
         self.assertIn(found["sentence"], page.text)
 
     def test_from_plan_to_the_report(self):
-        link = self.home / LINK
-        self.start_rig(link, ",".join(f"{name}@{step}" for name, step in STEPS.items()))
-        rospy.wait_for_message("/clock", Clock, 30)  # launch files refuse to wait for a clock that nobody publishes
-        self.launch("driver.launch", f"serial_port:={link}")
-        self.launch("session.launch", "plan:=day.yaml", f"surfaces:={SURFACES}")
-        self.assertTrue(self.over.wait(200), f"the session did not end; heard: {self.remarks}")
-
-        for remark in REMARKS:
-            self.assertTrue(any(remark in heard for heard in self.remarks), f"{remark} was not said: {self.remarks}")
+        self.conduct(PLAN, ",".join(f"{name}@{step}" for name, step in STEPS.items()), REMARKS)
         for one in (self.running.pop(1), self.running.pop(0)):  # the driver and the rig, whose work is done
             one.send_signal(signal.SIGINT)
             one.wait(60)

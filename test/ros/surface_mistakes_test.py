@@ -1,25 +1,15 @@
 #!/usr/bin/python3
 """The sheet slips off, and later lies on another surface than was asked for: the session notices both from the readings.
 
-The shipped launch files of driver and session; the emulated operator makes the mistakes. Rig time runs 20 times as fast
-as real time.
+The emulated operator makes the mistakes.
 """
-import os
-import pathlib
 import signal
-import subprocess
-import tempfile
-import threading
-import unittest
 
 import rosbag
-import rospkg
 import rospy
 import rostest
-from fsr_pressure_map.msg import Instruction
-from rosgraph_msgs.msg import Clock
+from conducted_session import SURFACES, ConductedSession
 
-SURFACES = pathlib.Path(rospkg.RosPack().get_path("fsr_pressure_map")) / "config/surfaces"
 BENCH = SURFACES.parent / "simulation/bench.yaml"  # where a surface reads alike each time
 PLAN = """
 plan: rounds
@@ -36,46 +26,9 @@ program:
 MISTAKES = "sheet_off@10,repeat_surface@23"
 
 
-class SurfaceMistakesTest(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.home = pathlib.Path(self.folder.name)
-        (self.home / "rounds.yaml").write_text(PLAN)
-        self.running, self.remarks, self.over = [], [], threading.Event()
-        rospy.Subscriber("/fsr/instruction", Instruction, self.hear)
-
-    def tearDown(self):
-        for one in reversed(self.running):
-            one.send_signal(signal.SIGINT)
-        for one in self.running:
-            one.wait(30)
-        self.folder.cleanup()
-
-    def hear(self, instruction):
-        if instruction.remark and instruction.remark not in self.remarks:
-            self.remarks.append(instruction.remark)
-        if instruction.kind == Instruction.DONE:
-            self.over.set()
-
-    def launch(self, name, *arguments):
-        here = dict(os.environ, PWD=str(self.home))  # as a shell would say it
-        self.running.append(subprocess.Popen(["roslaunch", "fsr_pressure_map", name, *arguments], cwd=self.home, env=here))
-
-    def start_rig(self, link, mistakes, *parameters):
-        rospy.set_param("/use_sim_time", True)
-        self.running.append(subprocess.Popen(["rosrun", "fsr_pressure_map", "clumsy_rig_node", "__ns:=fsr", "_operator:=true", "_change:=20",
-                                              "_time_scale:=20", f"_link:={link}", f"_mistakes:={mistakes}", *parameters]))
-
+class SurfaceMistakesTest(ConductedSession):
     def test_the_readings_tell(self):
-        port = self.home / "port"
-        self.start_rig(port, MISTAKES, f"_simulation:={BENCH}")
-        rospy.wait_for_message("/clock", Clock, 30)  # launch files refuse to wait for a clock that nobody publishes
-        self.launch("driver.launch", f"serial_port:={port}")
-        self.launch("session.launch", "plan:=rounds.yaml", f"surfaces:={SURFACES}", "report:=false")
-        self.assertTrue(self.over.wait(200), f"the session did not end; heard: {self.remarks}")
-        for remark in ("sheet", "mount 6 reads like flat"):
-            self.assertTrue(any(remark in heard for heard in self.remarks), f"{remark} was not said: {self.remarks}")
-
+        self.conduct(PLAN, MISTAKES, ("sheet", "mount 6 reads like flat"), rig=[f"_simulation:={BENCH}"], session=["report:=false"])
         conductor = self.running.pop()
         conductor.send_signal(signal.SIGINT)  # the last bag is closed at the latest then
         conductor.wait(60)

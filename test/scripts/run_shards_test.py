@@ -1,16 +1,11 @@
 #!/usr/bin/python3
-"""Tests of scripts/run_shards with GNU parallel and with Slurm.
+"""Tests of scripts/run_shards with munged, slurmctld and slurmd as processes of this test, on loopback.
 
-    run_shards_test.py parallel     GNU parallel
-    run_shards_test.py slurm        munged, slurmctld and slurmd as processes of this test, on loopback
-
-FSR_DEVEL names the devel space of a build, whose `study` is run in shards; without it this is left out.
 Exit status 77 (SKIPPED) where the programs are not installed.
 """
 
 import os
 import pathlib
-import re
 import shutil
 import signal
 import socket
@@ -33,8 +28,6 @@ while [ -e "$1/wait_$number" ]; do sleep 0.05; done
 [ ! -e "$1/fail_$number" ] || { echo "shard $2 fails"; exit 3; }
 echo "$2" >"$1/out_$number.new" && mv "$1/out_$number.new" "$1/out_$number"
 """
-# A study that takes a second.
-PLAN = "study: quick\nforest: {trees: 2}\nresamples: 99\nbandwidths: [0.0078125]\nbandwidth_taxels: 1\n"
 WAIT = 120  # [s], for an event; never a duration of the test
 
 
@@ -45,115 +38,6 @@ def until(event, what):
             raise AssertionError("waited %d s in vain for %s" % (WAIT, what))
         time.sleep(0.05)
 
-
-class Driver:
-    """The tests, for each way to start the shards."""
-    words = []
-
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory(prefix="shards ")  # a space, which must not part a word
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-        self.log = self.folder / "log"
-        self.shard = self.folder / "shard.sh"
-        self.shard.write_text(SHARD)
-        self.shard.chmod(0o755)
-
-    def start(self, *more, shards=4, command=None):
-        usual = [str(SCRIPTS / "run_shards"), "--shards", str(shards), "--log", str(self.log), "--jobs", "2", *self.words, *more, "--"]
-        return subprocess.Popen([*usual, *(command or [str(self.shard), str(self.folder), "{shard}"])], stdout=subprocess.PIPE,
-                                stderr=subprocess.PIPE, text=True, cwd=self.folder)
-
-    def run_all(self, *more, **options):
-        run = self.start(*more, **options)
-        out, err = run.communicate()
-        return subprocess.CompletedProcess(run.args, run.returncode, out, err)
-
-    def begun(self):
-        path = self.folder / "begun"
-        return sorted(path.read_text().split()) if path.exists() else []
-
-    def told(self):
-        return sorted(path.read_text().strip() for path in self.folder.glob("out_?"))
-
-    def test_runs_every_shard_once(self):
-        done = self.run_all()
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual((self.told(), self.begun()), (["1/4", "2/4", "3/4", "4/4"], ["1", "2", "3", "4"]))
-        self.assertEqual((self.log / "shard_3.log").read_text(), "begins 3/4\n")
-
-    def test_does_nothing_when_all_is_done(self):
-        self.run_all()
-        done = self.run_all()
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual(self.begun(), ["1", "2", "3", "4"])
-
-    def test_runs_only_what_failed_again(self):
-        (self.folder / "fail_2").touch()
-        done = self.run_all()
-        self.assertEqual(done.returncode, 1)
-        self.assertIn("shard 2/4 did not end well; see", done.stderr)
-        self.assertIn("3 of 4 shards ended well", done.stderr)
-        self.assertIn("shard 2/4 fails", (self.log / "shard_2.log").read_text())
-        (self.folder / "fail_2").unlink()
-        done = self.run_all()
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual((len(self.told()), self.begun()), (4, ["1", "2", "2", "3", "4"]))
-
-    def test_goes_on_when_it_was_interrupted(self):
-        for number in (3, 4):
-            (self.folder / ("wait_%d" % number)).touch()
-        run = self.start()
-        until(lambda: len(self.told()) == 2 and "3" in self.begun(), "two shards that ended and one that runs")
-        run.send_signal(signal.SIGTERM)
-        run.communicate()
-        self.assertNotEqual(run.returncode, 0)
-        self.assertEqual(self.told(), ["1/4", "2/4"])
-        for number in (3, 4):
-            (self.folder / ("wait_%d" % number)).unlink()
-        time.sleep(0.5)  # a shard that was not ended would write now
-        self.assertEqual(self.told(), ["1/4", "2/4"])
-        done = self.run_all()
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual(self.told(), ["1/4", "2/4", "3/4", "4/4"])
-        self.assertEqual([self.begun().count(number) for number in "12"], [1, 1])
-
-    def test_makes_the_study_of_one_run(self):
-        plan = self.folder / "plan.yaml"
-        plan.write_text(PLAN)
-        study = [os.environ["FSR_DEVEL"] + "/lib/fsr_pressure_map/study", "--no-figures", "--threads", "1"]
-        what = ["--simulation", str(PACKAGE / "config/simulation/bench.yaml"), "--plan", str(plan)]
-        whole, shared = self.folder / "whole", self.folder / "shared"
-        subprocess.run([*study, *what, "--output", str(whole)], check=True, stdout=subprocess.DEVNULL)
-        done = self.run_all(shards=3, command=[*study, *what, "--output", str(shared), "--shard", "{shard}"])
-        self.assertEqual(done.returncode, 0, done.stderr)
-        subprocess.run([*study, "--merge", "--output", str(shared)], check=True, stdout=subprocess.DEVNULL)
-        tables = sorted(path.relative_to(whole) for path in whole.glob("tables/*"))
-        self.assertEqual(len(tables), 10)
-        for name in tables:
-            self.assertEqual((shared / name).read_bytes(), (whole / name).read_bytes(), name)
-        undated = [re.sub(r'"date": ".*"', "", (folder / "results.json").read_text()) for folder in (whole, shared)]
-        self.assertEqual(*undated)
-
-    def test_refuses_what_would_be_wrong(self):
-        self.run_all(shards=1)
-        for words, options, said in [
-                ([], {"shards": 2}, "command.json: shards is 2 here and 1 there; choose another --log"),
-                ([], {"shards": 0}, "--shards is 0, but must be 1 or more"),
-                ([], {"shards": 1, "command": ["true"]}, "the command has no {shard}"),
-                (["--jobs", "0"], {"shards": 1}, "--jobs is 0, but must be 1 or more")]:
-            done = self.run_all(*words, **options)
-            self.assertEqual(done.returncode, 2, done.stderr)
-            self.assertIn(said, done.stderr)
-
-
-class Parallel(Driver, unittest.TestCase):
-    def test_runs_every_shard_once(self):
-        super().test_runs_every_shard_once()
-        self.assertEqual((self.log / "joblog").read_text().count("\n"), 5)
-
-
-# --- a cluster of one machine -----------------------------------------------------------------------
 
 CONFIGURATION = """
 ClusterName=test
@@ -244,29 +128,100 @@ class Cluster:
         shutil.rmtree(self.folder, ignore_errors=True)
 
 
-class Slurm(Driver, unittest.TestCase):
-    words = ["--slurm"]
-
+class RunShards(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.cluster = Cluster()
         cls.addClassCleanup(cls.cluster.stop)
         cls.cluster.start()
 
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="shards ")  # a space, which must not part a word
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.log = self.folder / "log"
+        self.shard = self.folder / "shard.sh"
+        self.shard.write_text(SHARD)
+        self.shard.chmod(0o755)
+
+    def start(self, *more, shards=4, command=None):
+        usual = [str(SCRIPTS / "run_shards"), "--shards", str(shards), "--log", str(self.log), "--jobs", "2", *more, "--"]
+        return subprocess.Popen([*usual, *(command or [str(self.shard), str(self.folder), "{shard}"])], stdout=subprocess.PIPE,
+                                stderr=subprocess.PIPE, text=True, cwd=self.folder)
+
+    def run_all(self, *more, **options):
+        run = self.start(*more, **options)
+        out, err = run.communicate()
+        return subprocess.CompletedProcess(run.args, run.returncode, out, err)
+
+    def begun(self):
+        path = self.folder / "begun"
+        return sorted(path.read_text().split()) if path.exists() else []
+
+    def told(self):
+        return sorted(path.read_text().strip() for path in self.folder.glob("out_?"))
+
+    def test_runs_every_shard_once(self):
+        done = self.run_all()
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual((self.told(), self.begun()), (["1/4", "2/4", "3/4", "4/4"], ["1", "2", "3", "4"]))
+        self.assertEqual((self.log / "shard_3.log").read_text(), "begins 3/4\n")
+
+    def test_does_nothing_when_all_is_done(self):
+        self.run_all()
+        done = self.run_all()
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(self.begun(), ["1", "2", "3", "4"])
+
+    def test_runs_only_what_failed_again(self):
+        (self.folder / "fail_2").touch()
+        done = self.run_all()
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("shard 2/4 did not end well; see", done.stderr)
+        self.assertIn("3 of 4 shards ended well", done.stderr)
+        self.assertIn("shard 2/4 fails", (self.log / "shard_2.log").read_text())
+        (self.folder / "fail_2").unlink()
+        done = self.run_all()
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual((len(self.told()), self.begun()), (4, ["1", "2", "2", "3", "4"]))
+
+    def test_goes_on_when_it_was_interrupted(self):
+        for number in (3, 4):
+            (self.folder / ("wait_%d" % number)).touch()
+        run = self.start()
+        until(lambda: len(self.told()) == 2 and "3" in self.begun(), "two shards that ended and one that runs")
+        run.send_signal(signal.SIGTERM)
+        run.communicate()
+        self.assertNotEqual(run.returncode, 0)
+        self.assertEqual(self.told(), ["1/4", "2/4"])
+        for number in (3, 4):
+            (self.folder / ("wait_%d" % number)).unlink()
+        time.sleep(0.5)  # a shard that was not ended would write now
+        self.assertEqual(self.told(), ["1/4", "2/4"])
+        done = self.run_all()
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(self.told(), ["1/4", "2/4", "3/4", "4/4"])
+        self.assertEqual([self.begun().count(number) for number in "12"], [1, 1])
+
+    def test_refuses_what_would_be_wrong(self):
+        self.run_all(shards=1)
+        for words, options, said in [
+                ([], {"shards": 2}, "command.json: shards is 2 here and 1 there; choose another --log"),
+                ([], {"shards": 0}, "--shards is 0, but must be 1 or more"),
+                ([], {"shards": 1, "command": ["true"]}, "the command has no {shard}"),
+                (["--jobs", "0"], {"shards": 1}, "--jobs is 0, but must be 1 or more")]:
+            done = self.run_all(*words, **options)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn(said, done.stderr)
+
 
 def main():
-    kind = sys.argv.pop(1) if len(sys.argv) > 1 else "parallel"
-    programs = {"parallel": ["parallel"], "slurm": ["munged", "slurmctld", "slurmd", "sbatch", "scancel", "sinfo"]}[kind]
     os.environ["PATH"] += ":/usr/sbin:/sbin"
-    missing = [program for program in programs if not shutil.which(program)]
+    missing = [program for program in ("munged", "slurmctld", "slurmd", "sbatch", "scancel", "sinfo") if not shutil.which(program)]
     if missing:
         print("SKIPPED: %s is not installed (scripts/install_packages test)" % missing[0])
         return SKIPPED
-    suite = unittest.defaultTestLoader.loadTestsFromTestCase({"parallel": Parallel, "slurm": Slurm}[kind])
-    wanted = [test for test in suite if not sys.argv[1:] or test.id().split(".")[-1] in sys.argv[1:]]
-    if "FSR_DEVEL" not in os.environ:
-        wanted = [test for test in wanted if not test.id().endswith("study_of_one_run")]
-    done = unittest.TextTestRunner(verbosity=2).run(unittest.TestSuite(wanted))
+    done = unittest.main(verbosity=2, exit=False).result
     if done.skipped and done.wasSuccessful():
         print("SKIPPED: %s" % done.skipped[0][1])
         return SKIPPED

@@ -119,12 +119,6 @@ class StationBag {
   std::map<std::string, std::uint32_t> published_;  // number of messages of each topic
 };
 
-// Hears all and keeps nothing, so that the rig runs as if a bag were written.
-fsr::simulation::RigListener noListener() {
-  return {[](double, const std::vector<std::uint16_t>&) {}, [](double, std::int32_t) {},
-          [](double, double) {}};
-}
-
 // The share of the programs of a session that has run.
 class SessionShare {
  public:
@@ -163,15 +157,11 @@ SimulatedRun writeSessionBags(const fsr::simulation::SimulationSettings& setting
   SessionShare share(session, bags);
   for (std::size_t i = 0; i < session.stations(); ++i) {
     const fsr::simulation::Station& station = session.station(i);
-    std::optional<StationBag> bag;
-    if (!bags.wanted || bags.wanted(i)) {
-      const std::string path = std::filesystem::path(bags.output) / (stationName(station) + ".bag");
-      if (bags.progress) bags.progress(path);
-      bag.emplace(path, settings, station.surface, session.origin());
-    }
-    session.runNext(share.telling(bag ? bag->listener() : noListener(), "simulating " + stationName(station),
-                                  session.begin()));
-    if (bag) bag->close();
+    const std::string path = std::filesystem::path(bags.output) / (stationName(station) + ".bag");
+    if (bags.progress) bags.progress(path);
+    StationBag bag(path, settings, station.surface, session.origin());
+    session.runNext(share.telling(bag.listener(), "simulating " + stationName(station), session.begin()));
+    bag.close();
     share.ended(station);
   }
   return {settings, session.state(), {}};

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <functional>
 #include <optional>
 #include <string>
@@ -19,9 +18,6 @@ struct SimulatedBags {
   std::function<void(const std::string& path)> progress;  ///< called before each bag is written
   /// Called now and then with what is done and its share; none = nobody asks.
   std::function<void(const std::string& step, double share)> told = {};
-  /// Which bags of a session to write, by their index; none = all. The stations of the others run, too,
-  /// because the sheet remembers them.
-  std::function<bool(std::size_t index)> wanted;
 };
 
 /// Result of a simulation.

@@ -2,12 +2,10 @@
 
 #include <filesystem>
 #include <functional>
-#include <map>
 #include <optional>
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "report/effect_list.h"
-#include "report/shard_file.h"
 #include "ros/bags/simulated_bags.h"
 #include "ros/tools/discrepancy_files.h"
 #include "ros/tools/tool_options.h"
@@ -17,7 +15,6 @@
 #include "settings/progress.h"
 #include "settings/regular_file.h"
 #include "settings/replace_file.h"
-#include "settings/sha256.h"
 #include "simulation/effects/effect_library.h"
 #include "simulation/portrait.h"
 #include "simulation/settings_text.h"
@@ -29,15 +26,14 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kTruth = "truth.yaml";
+
 fsr::settings::CommandLine simulateOptions() {
   fsr::settings::CommandLine line(
-      "simulate",
-      "--simulation FILE [--drive BAG...] --output DIR  |  --gap verdict.yaml --drive BAG...  |  "
-      "--merge --output DIR",
-      "Writes bags of a simulated rig. The pressure, surfaces and temperature "
-      "are those of the session in the "
-      "simulation file, or those recorded in real bags. The true settings of the "
-      "rig are in truth.yaml beside "
+      "simulate", "--simulation FILE [--drive BAG...] --output DIR  |  --gap verdict.yaml --drive BAG...",
+      "Writes bags of a simulated rig. The pressure, surfaces and temperature are those of the session in "
+      "the "
+      "simulation file, or those recorded in real bags. The true settings of the rig are in truth.yaml "
+      "beside "
       "the bags, and not in the bags.");
   line.input("simulation", "FILE", "settings of the rig, e.g. config/simulation/bench.yaml")
       .output("output", "DIR", "folder to write to; it is created if it does not exist")
@@ -53,10 +49,6 @@ fsr::settings::CommandLine simulateOptions() {
              "run the surfaces and the program of this plan (plan_session) instead of the session")
       .option("seed", "N", "seed instead of the file's: another sheet and other noise")
       .option("sheets", "N", "simulate N sheets, of the seeds from --seed on, each in a folder sheet_SEED")
-      .option("shard", "I/N",
-              "write every Nth sheet, from the Ith on, or every Nth bag of a single sheet; "
-              "see docs/many_machines.md")
-      .flag("merge", "check that the shards in --output are complete and belong together; writes nothing")
       .option("effect", "ID", "enable this effect, with its usual values if the file does not set them")
       .input("state", "FILE", "continue from the state of the sheet that another run saved")
       .output("save-state", "FILE", "save the state of the sheet at the end")
@@ -194,73 +186,37 @@ void writeBags(const fsr::settings::CommandLine& line, const fsr::simulation::Si
   out << saved << std::endl;
 }
 
-std::string sha256OfText(const std::string& text) {
-  return fsr::settings::sha256(text.data(), text.size());
-}
-
-// Writes the session of one sheet: the bags that `wanted` chooses. Adds their SHA-256 to `files`.
-void writeSheet(const fsr::simulation::SimulationSettings& settings, const fs::path& top,
-                const fs::path& folder, const std::function<bool(std::size_t)>& wanted,
-                std::map<std::string, std::string>& files, Display& display) {
+// The session of a new sheet: its bags and their truth.
+void writeSheet(const fsr::simulation::SimulationSettings& settings, const fs::path& folder,
+                Display& display) {
   fs::create_directories(folder);
   refuseRecordedBags(folder);
-  // First, because other shards that write to the folder look for it.
   const fs::path truth = folder / kTruth;
   fsr::settings::replaceFile(
       truth,
       simulationText(settings, "True settings of the simulated rig that wrote the bags in this folder."));
   display.print(truth.string());
-  std::vector<std::string> written;
   SimulatedBags bags;
   bags.output = folder;
-  bags.wanted = wanted;
-  bags.progress = [&](const std::string& path) {
-    display.print(path);
-    written.push_back(path);
-  };
+  bags.progress = [&](const std::string& path) { display.print(path); };
   bags.told = display.told();
   writeSessionBags(settings, bags);
-  for (const std::string& path : written)
-    files[fs::path(path).lexically_relative(top)] = fsr::settings::sha256OfFile(path);
 }
 
-// The sessions of one sheet or several, or those of a shard.
 void writeSheets(const fsr::settings::CommandLine& line, const fsr::simulation::SimulationSettings& settings,
                  std::ostream& out) {
   line.refuse({"drive", "state", "save-state", "plot", "gap"},
-              std::string("cannot be used with --") + (line.has("sheets") ? "sheets" : "shard") +
-                  ", which writes the sessions of new sheets");
+              "cannot be used with --sheets, which writes the sessions of new sheets");
   drivingBags(line);  // refuses bags without --drive
   const auto sheets = static_cast<std::size_t>(line.integer("sheets", 1, {1, 1e6, ""}));
-  fsr::report::ShardFile file{"simulate", {}, {}, {}, {}};
-  if (line.has("shard")) file.shard = fsr::report::readShard(line.text("shard", ""));
-  file.options = {{"the SHA-256 of the settings", sha256OfText(simulationText(settings))},
-                  {"--seed", std::to_string(settings.seed)},
-                  {"--sheets", line.has("sheets") ? std::to_string(sheets) : "not given"}};
   const TidyFolder folder(line);
-  const fs::path own = fs::path(folder.path()) / fsr::report::shardFileName(file.shard);
-  line.requireWritable(own, fsr::settings::file_kind::kJson);
-  fs::remove(own);  // a shard that is killed leaves none
   fsr::simulation::SimulationSettings sheet = settings;
-  const auto wanted = [&](std::size_t bag) { return file.shard.has(bag); };
-  std::optional<Display> display(out);
-  if (!line.has("sheets")) {
-    writeSheet(sheet, folder.path(), folder.path(), wanted, file.files, *display);
-  } else {
-    std::vector<std::size_t> dealt;
-    for (std::size_t i = 0; i < sheets; ++i)
-      if (file.shard.has(i)) dealt.push_back(i);
-    for (std::size_t done = 0; done < dealt.size(); ++done) {
-      sheet.seed = settings.seed + dealt[done];
-      const fs::path below = fs::path(folder.path()) / ("sheet_" + std::to_string(sheet.seed));
-      display->begin(done, dealt.size());
-      writeSheet(sheet, folder.path(), below, {}, file.files, *display);
-    }
+  Display display(out);
+  for (std::size_t i = 0; i < sheets; ++i) {
+    sheet.seed = settings.seed + i;
+    display.begin(i, sheets);
+    writeSheet(sheet, fs::path(folder.path()) / ("sheet_" + std::to_string(sheet.seed)), display);
   }
-  display.reset();  // removes its line
-  if (!line.has("shard")) return;
-  fsr::settings::replaceFile(own, fsr::report::shardJson(file));
-  out << own.string() << std::endl;
 }
 
 int drawPlot(const fsr::settings::CommandLine& line, const fsr::simulation::SimulationSettings& settings,
@@ -299,17 +255,12 @@ int simulateTool(int argc, const char* const* argv, std::ostream& out) {
     out << listOf(line.text("effect", ""));
     return 0;
   }
-  if (line.has("merge")) {
-    const std::string folder = line.requiredText("output");
-    out << fsr::report::checkShards(folder, "simulate") << " bags in " << folder
-        << " are complete, and each is as its shard wrote it" << std::endl;
-    return 0;
-  }
   if (line.has("gap")) return recompute(line, out);
   const fsr::simulation::SimulationSettings settings = settingsOf(line);
-  if (line.has("plot") && !line.has("sheets") && !line.has("shard")) return drawPlot(line, settings, out);
-  if (line.has("sheets") || line.has("shard")) {
+  if (line.has("sheets")) {
     writeSheets(line, settings, out);
+  } else if (line.has("plot")) {
+    return drawPlot(line, settings, out);
   } else {
     writeBags(line, settings, out);
   }

@@ -75,8 +75,7 @@ int simulateTool(int argc, const char* const* argv, std::ostream& out);
 
 /// `study BAG... --output DIR` or `study --simulation FILE --output DIR`: the comparison of Ahmadizadeh and
 /// Menon 2019 (doi:10.3390/s19245519), its statistical tests, and further splits and schemes. Writes
-/// results.json and tables (CSV) to the folder, then figures and report.html. With `--shard I/N` it computes
-/// a share of the pieces; `--merge` makes the results from those of all shards. Returns 0, or 3 if only the
+/// results.json and tables (CSV) to the folder, then figures and report.html. Returns 0, or 3 if only the
 /// figures could not be drawn.
 int studyTool(int argc, const char* const* argv, std::ostream& out);
 

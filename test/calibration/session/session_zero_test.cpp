@@ -117,12 +117,9 @@ std::string refusalOf(const std::vector<dataset::Recording>& recordings) {
 TEST(SessionZero, ExpectsATareWithOneSessionThatStartsAtRest) {
   const Calibration automatic = zeroTrained(sessions(1, 0));
   EXPECT_EQ(automatic.session_zero.tare, SessionTare::kTablesAlone);
-  EXPECT_EQ(
+  EXPECT_TRUE(test_support::holds(
       automatic.scores.session.choice,
-      "Tare at the start of a session: expected, since sheets usually differ from session to session. "
-      "What it takes off is not known, because no surface has two sessions that start at rest (1 session, "
-      "1 of them with a rest at the start); record a surface in two sessions or more, each starting with "
-      "2 s at rest at the lowest pressure.");
+      {"expected", "not known", "1 session, 1 of them with a rest", "two sessions or more", "2 s at rest"}));
   EXPECT_TRUE(std::isnan(automatic.session_zero.rmse));
   EXPECT_TRUE(zeroTrained(sessions(1, 0), ZeroChoice::kSession).session_zero.expected());
 }
@@ -165,12 +162,9 @@ TEST(SessionZero, NeedsARestAtTheStart) {
   EXPECT_NE(zeroTrained(recordings).scores.session.choice.find("(2 sessions, 1 of them with a rest"),
             std::string::npos);
   recordings[0] = withoutItsRest(recordings[0]);
-  EXPECT_EQ(refusalOf(recordings)
-                .find("zero session: no session can be tared: session_1.bag, flat, mount 1: it does not "
-                      "start with 2 s "
-                      "at rest: the chamber is at 300.0 kPa, which is a load; record"),
-            0u)
-      << refusalOf(recordings);
+  EXPECT_TRUE(
+      test_support::holds(refusalOf(recordings), {"zero session", "session_1.bag, flat, mount 1",
+                                                  "2 s at rest", "300.0 kPa, which is a load", "record"}));
   EXPECT_FALSE(zeroTrained(recordings).session_zero.expected());
 }
 

@@ -113,7 +113,7 @@ TEST_F(ReadShape, DoesWithoutSomeTaxelsButNotWithoutHalf) {
   rest.reading[9] = NAN;
   EXPECT_EQ(complaint(rest), "accepted") << "half of them";
   rest.reading[10] = NAN;
-  EXPECT_EQ(complaint(rest), "only 9 of 20 taxels have a reading, too few to tell how the sheet lies");
+  EXPECT_TRUE(test_support::holds(complaint(rest), {"only 9 of 20 taxels"}));
   EXPECT_TRUE(test_support::holds(complaint({{1, 2}, {0, 0}}), {"2 taxels", "20", "the sheet has 2 taxels"}));
 }
 

@@ -381,9 +381,9 @@ TEST_F(CheckShapes, SaysWhyThereIsNoModel) {
 TEST_F(CheckShapes, SaysHowManyTaxelsAreMissing) {
   RestReading rest = readingAtRest(fresh()[0], restAtStart(fresh()[0], 0));
   std::fill(rest.reading.begin(), rest.reading.begin() + 11, NAN);
-  EXPECT_EQ(checkShape(calibration().shape, rest, fresh()[0].conditions.front()).sentence,
-            "how the sheet lies cannot be told: only 9 of 20 taxels have a reading, too few to tell how the "
-            "sheet lies");
+  EXPECT_TRUE(
+      test_support::holds(checkShape(calibration().shape, rest, fresh()[0].conditions.front()).sentence,
+                          {"cannot be told", "9 of 20 taxels"}));
 }
 
 // An estimate is used only where its interval is at most half of the training, 10 of 20 1/m.

@@ -19,6 +19,7 @@
 #include "fsr_pressure_map/simulation/simulate.h"
 #include "simulation/settings_text.h"
 #include "support/file_complaint.h"
+#include "support/holds.h"
 #include "support/live_rmse.h"
 #include "support/simulated_rig.h"
 
@@ -146,8 +147,8 @@ TEST(TemperatureTraining, SaysInOneLineThatTheTemperatureDidNotChange) {
   WarmRig rig = warmRig();
   rig.room = "23";
   rig.bags = 1;
-  EXPECT_EQ(warmTrained(recordingsOf(rig)).scores.temperature.choice,
-            "Temperature: none, since the mean temperatures of the cycles differ by 0.5 K or less.");
+  EXPECT_TRUE(test_support::holds(warmTrained(recordingsOf(rig)).scores.temperature.choice,
+                                  {"Temperature: none", "differ by 0.5 K or less"}));
 }
 
 // Everything that existed keeps its numbers without a thermometer, and where no model is asked for or chosen.

@@ -74,7 +74,7 @@ TEST(CalibrationHealth, WarnsOfATemperatureBeyondTraining) {
   health.map.flags.assign(6, fsr::map::taxel_flag::kTemperatureExtrapolated);
   const Status status = maps(health);
   EXPECT_EQ(status.level, Level::WARN);
-  EXPECT_EQ(status.message, "the temperature is beyond that of training, 22 to 23.5 degrees Celsius");
+  EXPECT_TRUE(test_support::holds(status.message, {"temperature is beyond", "22 to 23.5 degrees Celsius"}));
   EXPECT_EQ(valueOf(status, "temperature [degree Celsius]"), "40");
 }
 
@@ -84,7 +84,7 @@ TEST(CalibrationHealth, WarnsOfAnUnknownTemperatureWhereItIsNeeded) {
   health.corrects_temperature = true;
   const Status status = maps(health);
   EXPECT_EQ(status.level, Level::WARN);
-  EXPECT_EQ(status.message.find("the temperature is unknown, so the maps are not corrected for it"), 0u);
+  EXPECT_TRUE(test_support::holds(status.message, {"temperature is unknown", "not corrected"}));
   health.temperature = 23;
   EXPECT_EQ(maps(health).level, Level::OK);
 }

@@ -9,13 +9,9 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <iterator>
-#include <map>
 #include <set>
-#include <sstream>
 
 #include "fsr_pressure_map/ros/bag_reader.h"
-#include "fsr_pressure_map/settings/input_error.h"
 #include "ros/bags/bag_writer.h"
 #include "ros/bags/simulated_bags.h"
 #include "settings/sha256.h"
@@ -256,25 +252,22 @@ TEST_F(SimulateTool, TellsTheShareOfTheSessionThatIsSimulated) {
     return fsr::simulation::pressureProfile(settings.session[i].program).duration();
   };
   const double first = duration(0) / (duration(0) + duration(1));
-  for (const bool all : {true, false}) {  // also where a shard leaves out the first bag
-    Told told;
-    SimulatedBags bags;
-    bags.output = folder_;
-    bags.told = told.listener();
-    if (!all) bags.wanted = [](std::size_t bag) { return bag == 1; };
-    writeSessionBags(settings, bags);
-    ASSERT_EQ(told.steps.size(), 2u);
-    EXPECT_EQ(told.steps[0].first, "simulating 1_flat");
-    EXPECT_EQ(told.steps[1].first, "simulating 2_cylinder_5cm");
-    std::vector<double> shares;
-    for (const auto& [step, some] : told.steps) shares.insert(shares.end(), some.begin(), some.end());
-    EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
-    EXPECT_EQ(shares.front(), 0);
-    EXPECT_NEAR(told.steps[0].second.back(), first, 0.01);
-    EXPECT_NEAR(shares.back(), 1, 0.01);
-    EXPECT_LE(shares.back(), 1);
-    EXPECT_GT(shares.size(), 40u);  // one a second of rig time
-  }
+  Told told;
+  SimulatedBags bags;
+  bags.output = folder_;
+  bags.told = told.listener();
+  writeSessionBags(settings, bags);
+  ASSERT_EQ(told.steps.size(), 2u);
+  EXPECT_EQ(told.steps[0].first, "simulating 1_flat");
+  EXPECT_EQ(told.steps[1].first, "simulating 2_cylinder_5cm");
+  std::vector<double> shares;
+  for (const auto& [step, some] : told.steps) shares.insert(shares.end(), some.begin(), some.end());
+  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+  EXPECT_EQ(shares.front(), 0);
+  EXPECT_NEAR(told.steps[0].second.back(), first, 0.01);
+  EXPECT_NEAR(shares.back(), 1, 0.01);
+  EXPECT_LE(shares.back(), 1);
+  EXPECT_GT(shares.size(), 40u);  // one a second of rig time
 }
 
 TEST_F(SimulateTool, TellsHowFarItIsWithEachBagThatDrivesIt) {
@@ -331,113 +324,21 @@ TEST_F(SimulateTool, SaysWhatItCannotUse) {
   EXPECT_FALSE(fs::exists(path("out/1_flat.bag")));
 }
 
-// SHA-256 of every bag below a folder, by its path there.
-std::map<std::string, std::string> bagsBelow(const fs::path& folder) {
-  std::map<std::string, std::string> sums;
-  for (const auto& file : fs::recursive_directory_iterator(folder)) {
-    if (file.path().extension() == ".bag")
-      sums[file.path().lexically_relative(folder)] = fsr::settings::sha256OfFile(file.path());
-  }
-  return sums;
-}
-
-class SimulateShards : public SimulateTool {
- protected:
-  std::string shard(const std::string& which, std::vector<std::string> more = {}) {
-    more.insert(more.end(), {"--simulation", kBench, "--output", path("out"), "--shard", which});
-    return run(more);
-  }
-  std::string merge() { return run({"--merge", "--output", path("out")}); }
-  void edit(const std::string& file, const std::string& from, const std::string& to) {
-    std::string text = test_support::contentOf(folder_ / "out" / file);
-    ASSERT_NE(text.find(from), std::string::npos) << text;
-    text.replace(text.find(from), from.size(), to);
-    std::ofstream(folder_ / "out" / file, std::ios::binary) << text;
-  }
-  void expectRefused(const std::vector<std::string>& parts) {
-    run_.status = -1;
-    const std::string said = merge();
-    EXPECT_EQ(run_.status, -1) << said;
-    for (const std::string& part : parts) EXPECT_NE(said.find(part), std::string::npos) << said;
-  }
-};
-
-TEST_F(SimulateShards, WriteTheBytesOfARunWithoutShards) {
-  run({"--simulation", kBench, "--output", path("whole")});
-  shard("2/2");
-  EXPECT_EQ(filesIn(path("out")),
-            (std::set<std::string>{"2_cylinder_5cm.bag", "shard_2_of_2.json", "truth.yaml"}));
-  shard("1/2");
-  EXPECT_EQ(bagsBelow(path("out")), bagsBelow(path("whole")));
-  EXPECT_EQ(bagsBelow(path("out")).size(), 2u);
-  EXPECT_EQ(test_support::contentOf(path("out/truth.yaml")),
-            test_support::contentOf(path("whole/truth.yaml")));
-  EXPECT_EQ(merge(), "2 bags in " + path("out") + " are complete, and each is as its shard wrote it\n");
-  EXPECT_EQ(run_.status, 0);
-}
-
-TEST_F(SimulateShards, OfSeveralSheetsHaveWholeSheets) {
-  shard("1/2", {"--sheets", "3"});
-  EXPECT_EQ(filesIn(path("out")), (std::set<std::string>{"sheet_1", "sheet_3", "shard_1_of_2.json"}));
-  shard("2/2", {"--sheets", "3"});
-  merge();
-  EXPECT_EQ(run_.status, 0);
-  run({"--simulation", kBench, "--output", path("whole"), "--sheets", "3"});
-  EXPECT_EQ(bagsBelow(path("out")), bagsBelow(path("whole")));
+TEST_F(SimulateTool, WritesSeveralSheetsAsItWritesEachAlone) {
+  run({"--simulation", kBench, "--output", path("out"), "--seed", "2", "--sheets", "2"});
+  EXPECT_EQ(filesIn(path("out")), (std::set<std::string>{"sheet_2", "sheet_3"}));
   run({"--simulation", kBench, "--output", path("alone"), "--seed", "3"});
-  EXPECT_EQ(bagsBelow(path("out/sheet_3")), bagsBelow(path("alone")));
-}
-
-TEST_F(SimulateShards, AreRefusedIfOneIsMissing) {
-  shard("1/3");
-  shard("3/3");
-  expectRefused({path("out") + ": shard 2 of 3 is missing; run it with --shard 2/3"});
-}
-
-TEST_F(SimulateShards, AreRefusedIfOneIsThereTwice) {
-  shard("1/2");
-  shard("2/2");
-  fs::copy_file(path("out/shard_1_of_2.json"), path("out/shard_9.json"));
-  expectRefused({"shard_9.json: is shard 1 of 2, and so is", "shard_1_of_2.json; remove one of them"});
-}
-
-TEST_F(SimulateShards, AreRefusedIfTheyAreOfAnotherVersionOrHaveOtherOptions) {
-  shard("1/2");
-  shard("2/2", {"--seed", "5"});
-  expectRefused({"shard_2_of_2.json: --seed is 5 here and 1 in ", "shard_1_of_2.json"});
-  shard("2/2");
-  edit("shard_2_of_2.json", "\"version\": \"", "\"version\": \"9");
-  expectRefused({"shard_2_of_2.json: the version is 9"});
-  shard("2/3");
-  fs::remove(path("out/shard_2_of_2.json"));
-  expectRefused({"shard_2_of_3.json: the number of shards is 3 here and 2 in "});
-}
-
-TEST_F(SimulateShards, AreRefusedIfABagIsMissingOrAnother) {
-  shard("1/2");
-  shard("2/2");
-  edit("1_flat.bag", "raw", "ram");
-  expectRefused({"1_flat.bag: is not the file that ", "shard_1_of_2.json says"});
-  fs::remove(path("out/1_flat.bag"));
-  expectRefused({"1_flat.bag: is missing, but ", "copy the folders of all shards into one"});
-}
-
-TEST_F(SimulateShards, AreRefusedIfAFileIsCutShort) {
-  shard("1/1");
-  fs::resize_file(path("out/shard_1_of_1.json"), 30);
-  expectRefused({"shard_1_of_1.json: cannot be read as the file of a shard"});
-  EXPECT_TRUE(
-      test_support::holds(run({"--merge", "--output", path("nowhere")}), {"holds no shard_I_of_N.json"}));
-}
-
-TEST_F(SimulateShards, RefuseWhatIsNoShardAndOptionsOfOtherRuns) {
-  for (const char* const text : {"0/2", "3/2", "2", "1/0", "1/2/3", "99999999999999999999/2"}) {
-    EXPECT_TRUE(test_support::holds(shard(text), {"--shard", text, "I/N", "<=", "e.g. 2/4"}));
+  for (const char* const bag : {"/1_flat.bag", "/2_cylinder_5cm.bag"}) {
+    EXPECT_EQ(fsr::settings::sha256OfFile(path("out/sheet_3") + bag),
+              fsr::settings::sha256OfFile(path("alone") + bag));
   }
-  EXPECT_TRUE(test_support::holds(shard("1/2", {"--save-state", path("state.yaml")}),
-                                  {"--save-state cannot be used with"}));
-  EXPECT_NE(shard("1/2", {"--plot"}).find("--plot cannot be used with --shard"), std::string::npos);
-  EXPECT_FALSE(fs::exists(path("out")));
+  for (const std::string option : {"--save-state", "--plot"}) {
+    std::vector<std::string> words = {"--simulation", kBench, "--output", path("new"), "--sheets", "2"};
+    words.push_back(option);
+    if (option == "--save-state") words.push_back(path("state.yaml"));
+    EXPECT_NE(run(words).find(option + " cannot be used with --sheets"), std::string::npos);
+  }
+  EXPECT_FALSE(fs::exists(path("new")));
 }
 
 }  // namespace

@@ -202,7 +202,6 @@ TEST_F(ToolDamage, NoToolReplacesAFileOfAnotherKind) {
        "a YAML file of the kind rig_state",
        ""},
       {simulateTool, {"--simulation", bench, "--output"}, "a YAML file of the kind simulation", "truth.yaml"},
-      {simulateTool, {"--simulation", bench, "--shard", "1/2", "--output"}, kJson, "shard_1_of_2.json"},
       {studyTool, {bag_, "--output"}, kJson, "results.json"},
       {discrepancyTool, {bag_, "--output"}, "a YAML file of the kind verdict", "verdict.yaml"},
       {checkCalibrationTool, {folder_.path(), "--output"}, kJson, "life.json"},

@@ -149,14 +149,5 @@ TEST_F(ToolMemory, OfCheckBagGrowsByAFewNumbersForAScan) {
   EXPECT_LT(growth(check), 0.25);
 }
 
-// A piece of the study: linear regression, whose errors are 1.4 bytes for each byte of the bag.
-TEST_F(ToolMemory, OfStudyGrowsByTheErrorsOfOneMethod) {
-  const ToolOnBag study = [](const std::string& bag, const std::string& folder) {
-    return runTool(studyTool,
-                   {"study", bag, "--paper-only", "--shard", "1/100", "--threads", "2", "--output", folder});
-  };
-  EXPECT_LT(growth(study), 1.7);
-}
-
 }  // namespace
 }  // namespace fsr_ros
