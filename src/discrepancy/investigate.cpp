@@ -346,9 +346,9 @@ void Investigation::tellScatter() {
     report_.at_map = one.at_map;
     report_.depends_on = {
         simulation::name(gain ? simulation::Covariate::kCycle : simulation::Covariate::kClockTime)};
-    report_.limitations.push_back(gain ? "The readings scatter from cycle to cycle by " +
+    report_.limitations.push_back(gain ? "The gain changes from cycle to cycle by " +
                                              settings::percentText(one.size, 1) +
-                                             ", which data sheets give for no part."
+                                             "; data sheets give 2 % for a single part."
                                        : "The reading wanders by more than the range of the pressure.");
     return;
   }
