@@ -286,13 +286,14 @@ std::vector<Line> FaultSearch::linesOf(const std::vector<FaultKind>& kinds) cons
 }
 
 // Calls use(stay, scan, values) for each scan. Values: the deviations of all taxels; the median of those of
-// each line, in which what at most half of its taxels do does not count; and the contrast of each line, which
-// is its median less those of the lines beside it.
+// each line, in which what less than half of its taxels do does not count; the contrast of each line, which
+// is its median less those of the lines beside it; and the contrast of medians that are, of the two in the
+// middle, nearer to 0, in which what half of the taxels do does not count either.
 template <typename Use>
 void FaultSearch::eachScan(const std::vector<Line>& lines, Use use) const {
   const auto taxels = static_cast<Eigen::Index>(sheet_.used.size());
-  Eigen::ArrayXd values(taxels + 2 * Eigen::Index(lines.size()));
-  std::vector<double> of_line;
+  Eigen::ArrayXd values(taxels + 3 * Eigen::Index(lines.size()));
+  std::vector<double> of_line, nearer(lines.size());
   for (std::size_t v = 0; v < courses_.size(); ++v) {
     dataset::ScanCounts counts(*sheet_.stays[v].recording);
     for (std::size_t i = 0; i < courses_[v].scans(); ++i) {
@@ -304,12 +305,16 @@ void FaultSearch::eachScan(const std::vector<Line>& lines, Use use) const {
         const auto middle = of_line.begin() + of_line.size() / 2;
         std::nth_element(of_line.begin(), middle, of_line.end());
         const double below = of_line.size() % 2 ? *middle : *std::max_element(of_line.begin(), middle);
-        median[l] = std::abs(below) < std::abs(*middle) ? below : *middle;
+        median[l] = *middle;
+        nearer[l] = std::abs(below) < std::abs(*middle) ? below : *middle;
       }
       for (std::size_t l = 0; l < lines.size(); ++l) {
-        double beside = 0;
-        for (const std::size_t b : lines[l].beside) beside += median[b] / double(lines[l].beside.size());
-        median[lines.size() + l] = median[l] - beside;
+        double& contrast = median[lines.size() + l] = median[l];
+        double& nearer_contrast = median[2 * lines.size() + l] = nearer[l];
+        for (const std::size_t b : lines[l].beside) {
+          contrast -= median[b] / double(lines[l].beside.size());
+          nearer_contrast -= nearer[b] / double(lines[l].beside.size());
+        }
       }
       use(v, i, values);
     }
@@ -317,7 +322,7 @@ void FaultSearch::eachScan(const std::vector<Line>& lines, Use use) const {
 }
 
 CourseSums FaultSearch::sumsOf(const std::vector<Line>& lines) const {
-  CourseSums sums(Eigen::Index(sheet_.used.size() + 2 * lines.size()));
+  CourseSums sums(Eigen::Index(sheet_.used.size() + 3 * lines.size()));
   eachScan(lines, [&](std::size_t v, std::size_t i, const Eigen::ArrayXd& values) {
     const double reading = double(courses_[v].place[i]) / double(courses_[v].curve.cols() - 1);
     sums.add(i, reading, sheet_.stays[v].rising[i], values);
@@ -576,6 +581,8 @@ bool FaultSearch::findLine(const std::vector<FaultKind>& kinds) {
     const std::size_t own = sheet_.used.size() + l, contrast = own + lines.size();
     const Outlier outlier = judge(largest.row(contrast) - std::log(lines[l].noise), largest, others, tests);
     if (!outlier.span || outlier.p >= best.p || sums.isLoop(Eigen::Index(contrast))) continue;
+    const Eigen::Index nearer = Eigen::Index(contrast + lines.size());
+    if (!judge(largest.row(nearer) - std::log(lines[l].noise), largest, others, tests).span) continue;
     // It steps itself, and not only the lines beside it.
     if (largest(own, *outlier.span) < std::log(kOwnStep) + largest(contrast, *outlier.span)) continue;
     best = outlier;
