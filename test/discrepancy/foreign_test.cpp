@@ -69,10 +69,10 @@ DiscrepancyReport sines(const std::vector<double>& periods, Felt felt) {
 
 // Fitted to both paces together, the delay is -0.52 and 0.44 s.
 TEST(Foreign, DamperAtTwoPacesIsNoDelay) {
-  for (const auto& [force, power] : {std::pair{15e3, 0.0}, std::pair{-15e3, 0.3}}) {
+  for (const auto& damper : {std::pair{15e3, 0.0}, std::pair{-15e3, 0.3}}) {
     const DiscrepancyReport report =
         answerTo(planted::problemFeeling(kTwoPaces, [&](double, int, double rate) {
-          return std::copysign(std::pow(std::abs(rate) / 40e3, power), rate) * force;
+          return std::copysign(std::pow(std::abs(rate) / 40e3, damper.second), rate) * damper.first;
         }));
     EXPECT_FALSE(inSet(report, "time_skew")) << report.sentence;
     EXPECT_EQ(report.verdict, Verdict::kUnknown) << report.sentence;
