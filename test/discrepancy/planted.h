@@ -125,6 +125,18 @@ DiscrepancyProblem problemReading(const std::string& text, Count count) {
   return problem;
 }
 
+/// Reads out the matrix under the pressures of `felt` instead of those of the problem's recordings.
+inline void readOut(const std::vector<dataset::Recording>& felt, DiscrepancyProblem& problem) {
+  simulation::DrivenRig rig(problem.simulation);
+  for (std::size_t r = 0; r < felt.size(); ++r) {
+    rig.run(felt[r], [&](std::size_t scan, const simulation::SensorChain& chain) {
+      const auto& counts = chain.counts();
+      std::copy(counts.begin(), counts.end(),
+                problem.recordings[r].counts.begin() + static_cast<std::ptrdiff_t>(scan * counts.size()));
+    });
+  }
+}
+
 /// A rig whose matrix feels the chamber's pressure plus `more` [Pa]. `more` is a function of the pressure, as
 /// a share of 620 kPa, of the direction, and of the rate [Pa/s]. It plants forms that are not in the library.
 template <typename More>
@@ -137,14 +149,7 @@ DiscrepancyProblem problemFeeling(const std::string& text, More more) {
     dataset::Recording& recording = felt[measured.visits[measured.visit[m]].recording];
     recording.pressure[measured.first_scan[m]] += more(share, measured.direction[m], measured.rate[m]);
   }
-  simulation::DrivenRig rig(problem.simulation);
-  for (std::size_t r = 0; r < felt.size(); ++r) {
-    rig.run(felt[r], [&](std::size_t scan, const simulation::SensorChain& chain) {
-      const auto& counts = chain.counts();
-      std::copy(counts.begin(), counts.end(),
-                problem.recordings[r].counts.begin() + static_cast<std::ptrdiff_t>(scan * counts.size()));
-    });
-  }
+  readOut(felt, problem);
   return problem;
 }
 
