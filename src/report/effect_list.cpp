@@ -31,6 +31,7 @@ std::string parameterText(const simulation::EffectParameter& parameter) {
   for (const double value : parameter.tried) {
     text += (value == parameter.tried.front() ? "; tried " : ", ") + settings::numberText(value);
   }
+  if (parameter.of_range) text += "; all in proportion to the range of the pressure";
   return text + "\n";
 }
 

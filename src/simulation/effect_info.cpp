@@ -41,6 +41,25 @@ EffectParameter EffectParameter::trying(std::vector<double> values) const {
   return changed;
 }
 
+EffectParameter EffectParameter::ofRange() const {
+  EffectParameter changed = *this;
+  changed.of_range = true;
+  return changed;
+}
+
+EffectParameter EffectParameter::scaledTo(double range) const {
+  EffectParameter changed = *this;
+  const auto scale = [&](double& value) {
+    value = std::clamp(value * range / kUsualRange, permitted.low, permitted.high);
+  };
+  if (!of_range) return changed;
+  scale(changed.usual);
+  scale(changed.plausible.low);
+  scale(changed.plausible.high);
+  for (double& value : changed.tried) scale(value);
+  return changed;
+}
+
 EffectParameter EffectParameter::inBaseFit(int place) const {
   EffectParameter changed = *this;
   changed.place_in_base_fit = place;

@@ -123,6 +123,8 @@ enum class ParameterRole {
 /// What a random walk over clock time moves.
 enum class Walk { kNone, kZero, kGain };
 
+constexpr double kUsualRange = 620e3;  ///< of the chamber pressure [Pa]
+
 /// One parameter of an effect.
 struct EffectParameter {
   std::string name;
@@ -140,6 +142,9 @@ struct EffectParameter {
   /// `discrepancy` fits the simulation to the static curves of the recordings before it looks for anything.
   /// Place of this parameter in that fit, from 1; 0 = it is not fitted.
   int place_in_base_fit = 0;
+  /// A pressure in proportion to the range of the chamber: usual, plausible and tried values are those of
+  /// `kUsualRange`.
+  bool of_range = false;
   /// This scatter is set to the relative deviation of the taxels' readings that was measured.
   bool from_taxel_deviation = false;
   /// This scatter is the standard deviation of the step that a random walk takes in an hour: of the zero
@@ -147,11 +152,13 @@ struct EffectParameter {
   Walk walk = Walk::kNone;
   std::string fades_over = {};  ///< of a walk: the shape that is its time constant [s]; .inf = it never fades
 
-  EffectParameter within(double low, double high) const;             ///< sets `plausible`
-  EffectParameter offAt(double value) const;                         ///< sets `neutral`
-  EffectParameter trying(std::vector<double> values) const;          ///< sets `tried` and, by it, `plausible`
-  EffectParameter inBaseFit(int place) const;                        ///< sets `place_in_base_fit`
-  EffectParameter fromTaxelDeviation() const;                        ///< sets `from_taxel_deviation`
+  EffectParameter within(double low, double high) const;     ///< sets `plausible`
+  EffectParameter offAt(double value) const;                 ///< sets `neutral`
+  EffectParameter trying(std::vector<double> values) const;  ///< sets `tried` and, by it, `plausible`
+  EffectParameter ofRange() const;                           ///< sets `of_range`
+  EffectParameter scaledTo(double range) const;  ///< to the range of a chamber [Pa], where it is `of_range`
+  EffectParameter inBaseFit(int place) const;    ///< sets `place_in_base_fit`
+  EffectParameter fromTaxelDeviation() const;    ///< sets `from_taxel_deviation`
   EffectParameter walking(Walk what, std::string fades_over) const;  ///< sets `walk` and `fades_over`
 };
 
@@ -189,13 +196,13 @@ struct EffectInfo {
   bool stochastic = false;  ///< draws new random numbers at each scan
   bool by_chance =
       false;  ///< its course is random, or its phase unknown: no simulation repeats that of a recording
-  bool slow = false;          ///< changes from cycle to cycle, hardly within a cycle
-  bool any_course = false;    ///< slow, and its form can imitate any other slow effect
-  bool same_at_each_pace = false;  ///< of one size at each pace; what slow cycles want larger is another effect
-  bool mixture = false;       ///< sums of it with several shapes are forms of the same effect
-  bool with_bending = false;  ///< belongs to the simplest simulation of a bent sensor
-  std::string if_negative = {};  ///< sentence where a strength below zero was found
-  std::string also_called = {};  ///< name in data sheets, where it could be confused with another effect
+  bool slow = false;               ///< changes from cycle to cycle, hardly within a cycle
+  bool any_course = false;         ///< slow, and its form can imitate any other slow effect
+  bool same_at_each_pace = false;  ///< of one size at each pace, else it is another effect
+  bool mixture = false;            ///< sums of it with several shapes are forms of the same effect
+  bool with_bending = false;       ///< belongs to the simplest simulation of a bent sensor
+  std::string if_negative = {};    ///< sentence where a strength below zero was found
+  std::string also_called = {};    ///< name in data sheets, where it could be confused with another effect
 };
 
 /// The parameter of that name; throws std::out_of_range.

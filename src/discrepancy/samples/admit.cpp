@@ -385,7 +385,6 @@ Measured admit(const DiscrepancyProblem& problem) {
   Measured measured;
   measured.recordings = &problem.recordings;
   if (!problem.whole.empty()) measured.whole = &problem.whole;
-  measured.library = problem.simulation.library;
   const dataset::Recording& first = problem.recordings.front();
   measured.layout = first.layout;
   measured.full_scale = first.full_scale;
@@ -410,6 +409,7 @@ Measured admit(const DiscrepancyProblem& problem) {
     measured.path_length[i] =
         measured.path_length[i - 1] + std::abs(measured.pressure[i] - measured.pressure[i - 1]);
   }
+  measured.library = simulation::libraryOf(problem.simulation).forRange(measured.range());
   sumCounts(measured);
   partCycles(measured, problem.options.seed);
   maskTaxels(measured);

@@ -87,7 +87,7 @@ EffectEntry breakIn() {
       shape("cycles", "N_0, how fast it settles", {0.1, 1000, "cycles"}, 2).trying({0.3, 1, 2, 4}),
       shape("tail", "k, .inf = exponential", {0.5, INFINITY, ""}, INFINITY).trying({1, INFINITY}),
       shape("loads_share", "q, 0 = path, 1 = completed loads", {0, 1, ""}, 0).trying({0, 1}),
-      shape("span", "P_span, peak of a whole cycle", {1e3, 10e6, "Pa"}, 620e3),
+      shape("span", "P_span, peak of a whole cycle", {1e3, 10e6, "Pa"}, kUsualRange).ofRange(),
   };
   info.sign = SignRule::kEither;
   info.depends_on = {Covariate::kCycle, Covariate::kMount};
@@ -193,7 +193,7 @@ EffectEntry wear() {
       strength("loss", "c, in 10 million cycles", {-0.5, 0.9, ""}, 0.07).within(-0.2, 0.3),
       shape("exponent", "m", {0.05, 2, ""}, 0.26).trying({0.26, 0.5, 1}),
       shape("age", "N_a, cycles before the simulation begins", {0, 1e9, "cycles"}, 0),
-      shape("span", "P_span, peak of a whole cycle", {1e3, 10e6, "Pa"}, 620e3),
+      shape("span", "P_span, peak of a whole cycle", {1e3, 10e6, "Pa"}, kUsualRange).ofRange(),
       shape("fading", "N_f, 37 % of the wear comes later, .inf = it does not fade", {0.1, INFINITY, "cycles"},
             INFINITY)
           .offAt(INFINITY)

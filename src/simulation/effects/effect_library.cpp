@@ -27,6 +27,14 @@ std::shared_ptr<const EffectLibrary> EffectLibrary::with(EffectEntry entry) cons
   return std::make_shared<const EffectLibrary>(std::move(entries));
 }
 
+std::shared_ptr<const EffectLibrary> EffectLibrary::forRange(double range) const {
+  std::vector<EffectEntry> entries = entries_;
+  for (EffectEntry& entry : entries) {
+    for (EffectParameter& parameter : entry.info.parameters) parameter = parameter.scaledTo(range);
+  }
+  return std::make_shared<EffectLibrary>(entries);
+}
+
 const EffectEntry* EffectLibrary::find(const std::string& id) const {
   const auto found = std::find_if(entries_.begin(), entries_.end(),
                                   [&](const EffectEntry& entry) { return entry.info.id == id; });

@@ -147,6 +147,8 @@ class EffectLibrary {
   /// These effects and one more, which acts after the others of its stage. Throws InputError where there is
   /// one of its id already.
   std::shared_ptr<const EffectLibrary> with(EffectEntry entry) const;
+  /// These effects, with pressures in proportion to the range of a chamber [Pa].
+  std::shared_ptr<const EffectLibrary> forRange(double range) const;
 
   const std::vector<EffectEntry>& entries() const { return entries_; }
   const EffectEntry* find(const std::string& id) const;  ///< nullptr where there is none

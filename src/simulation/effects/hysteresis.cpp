@@ -135,9 +135,10 @@ EffectEntry hysteresis() {
   info.parameters = {
       strength("loop_width", "distance of the branches of a wide loop", {0, 0.5, "of span"}, 0.05)
           .within(0.005, 0.2),
-      shape("span", "pressure that loop_width is a share of", {1e3, 10e6, "Pa"}, 620e3),
+      shape("span", "pressure that loop_width is a share of", {1e3, 10e6, "Pa"}, kUsualRange).ofRange(),
       shape("reach", "R, half the way after a turn over which the loop opens", {100, 10e6, "Pa"}, 150e3)
-          .trying({50e3, 100e3, 150e3, 250e3}),
+          .trying({50e3, 100e3, 150e3, 250e3})
+          .ofRange(),
       shape("one_sided", "s, 0 = both branches depart alike, 1 = only unloading", {0, 1, ""}, 0)
           .trying({0, 1}),
       shape("gain_share", "v, 0 = acts like load, 1 = on the sensitivity", {0, 1, ""}, 0).trying({0, 1}),

@@ -92,7 +92,9 @@ EffectEntry creep() {
       shape("fastest", "shortest time constant", {1e-3, 1e6, "s"}, 1).trying({0.1, 1, 10}),
       shape("slowest", "longest time constant", {1e-3, 1e6, "s"}, 1e4).trying({1e2, 1e3, 1e4}),
       shape("gain_share", "v, 0 = acts like load, 1 = on the sensitivity", {0, 1, ""}, 0).trying({0, 1}),
-      shape("span", "P_span, load at which a creep of the sensitivity reaches a", {1e3, 10e6, "Pa"}, 620e3),
+      shape("span", "P_span, load at which a creep of the sensitivity reaches a", {1e3, 10e6, "Pa"},
+            kUsualRange)
+          .ofRange(),
   };
   info.sign = SignRule::kPositive;
   info.depends_on = {Covariate::kTimeSinceReversal, Covariate::kDirection, Covariate::kPressure};
@@ -195,7 +197,8 @@ EffectEntry relaxation() {
       shape("fastest", "shortest time constant", {1e-3, 1e6, "s"}, 1).trying({1, 10}),
       shape("slowest", "longest time constant", {1e-3, 1e6, "s"}, 1e3).trying({1e2, 1e3}),
       shape("exponent", "q, of the elastic response", {0.1, 4, ""}, 1),
-      shape("span", "P_s, load at which the elastic response equals the load", {1e3, 10e6, "Pa"}, 620e3),
+      shape("span", "P_s, load at which the elastic response equals the load", {1e3, 10e6, "Pa"}, kUsualRange)
+          .ofRange(),
   };
   info.sign = SignRule::kPositive;
   info.depends_on = {Covariate::kTimeSinceReversal, Covariate::kDirection, Covariate::kPressure};
