@@ -142,6 +142,10 @@ std::int64_t nanoseconds(double seconds) {
 // indicate a wrong ambient pressure.
 constexpr double kSuspectOffset = 50e3;
 
+// Rms error of monotone cubic interpolation, by its rms difference from linear interpolation: of a triangle
+// read 10 to 40 times a cycle. That of dwells is 1.4, of exponential fillings 1.2 to 1.6, of a sine 0.5.
+constexpr double kErrorOfCubic = 1.7;
+
 // Without a scan for so long, scans are missing, whatever the board's counter says: tables and some boards
 // have none. A busy computer that stamps scans at their arrival is late by less.
 constexpr double kTimesUsualStep = 10, kLeastSilence = 0.1;  // [s]
@@ -452,6 +456,8 @@ Recording RecordingBuilder::assemble(const RecordingOptions& options,
   const std::vector<std::size_t> spikes = spikesOf(reference, scans);
   reference.drop(spikes);
   recording.losses.reference_spikes = spikes.size();
+  recording.reference_interval = reference.interval();
+  double square = 0;
   std::vector<std::size_t> kept;
   for (std::size_t s = 0; s < scans.size(); ++s) {
     const ScanEvent& scan = scans[s];
@@ -463,9 +469,14 @@ Recording RecordingBuilder::assemble(const RecordingOptions& options,
     }
     kept.push_back(s);
     recording.condition.push_back(static_cast<std::uint32_t>(timeline.at(scan.stamp_ns)));
-    if (pressure) recording.pressure.push_back(*pressure - ambient_pressure);
+    if (pressure) {
+      recording.pressure.push_back(*pressure - ambient_pressure);
+      square += std::pow(*pressure - *reference.straight(scan.stamp_ns, gap), 2);
+    }
     if (!temperature.empty()) recording.temperature.push_back(temperature.nearby(scan.stamp_ns));
   }
+  if (!kept.empty())
+    recording.reference_error = kErrorOfCubic * std::sqrt(square / static_cast<double>(kept.size()));
   dropUnsound(scans, kept, recording);
   if (!kept.empty()) recording.start_ns = scans[kept.front()].stamp_ns;
   recording.time.reserve(kept.size());

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "statistics/samples.h"
+
 namespace fsr::dataset {
 
 namespace {
@@ -98,7 +100,16 @@ void TimeSeries::drop(const std::vector<std::size_t>& indices) {
     values_.erase(values_.begin() + static_cast<std::ptrdiff_t>(*index));
 }
 
-std::optional<double> TimeSeries::between(std::int64_t stamp_ns, std::int64_t longest_gap_ns) const {
+double TimeSeries::interval() const {
+  std::vector<double> seconds;
+  for (std::size_t i = 1; i < values_.size(); ++i)
+    seconds.push_back(1e-9 * static_cast<double>(values_[i].first - values_[i - 1].first));
+  return statistics::upperMedian(seconds, 0);
+}
+
+template <typename Rule>
+std::optional<double> TimeSeries::interpolated(std::int64_t stamp_ns, std::int64_t longest_gap_ns,
+                                               Rule rule) const {
   const auto before = [](const Entry& entry, std::int64_t stamp) { return entry.first < stamp; };
   const auto after = std::lower_bound(values_.begin(), values_.end(), stamp_ns, before);
   if (after == values_.end()) return std::nullopt;
@@ -106,10 +117,24 @@ std::optional<double> TimeSeries::between(std::int64_t stamp_ns, std::int64_t lo
   if (after == values_.begin()) return std::nullopt;
   const Entry& low = *(after - 1);
   if (after->first - low.first > longest_gap_ns) return std::nullopt;
-  const double value =
-      MonotoneCubic(values_, longest_gap_ns)(static_cast<std::size_t>(after - values_.begin()) - 1, stamp_ns);
+  const double value = rule(static_cast<std::size_t>(after - values_.begin()) - 1);
   const auto [least, greatest] = std::minmax(low.second, after->second);
   return std::clamp(value, least, greatest);  // rounding may leave it
+}
+
+std::optional<double> TimeSeries::between(std::int64_t stamp_ns, std::int64_t longest_gap_ns) const {
+  const MonotoneCubic cubic(values_, longest_gap_ns);
+  return interpolated(stamp_ns, longest_gap_ns, [&](std::size_t low) { return cubic(low, stamp_ns); });
+}
+
+std::optional<double> TimeSeries::straight(std::int64_t stamp_ns, std::int64_t longest_gap_ns) const {
+  return interpolated(stamp_ns, longest_gap_ns, [&](std::size_t low) {
+    const Entry& from = values_[low];
+    const Entry& to = values_[low + 1];
+    const double share =
+        static_cast<double>(stamp_ns - from.first) / static_cast<double>(to.first - from.first);
+    return from.second + share * (to.second - from.second);
+  });
 }
 
 double TimeSeries::nearby(std::int64_t stamp_ns) const {

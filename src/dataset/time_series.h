@@ -23,6 +23,8 @@ class TimeSeries {
   std::size_t size() const { return values_.size(); }
   std::uint64_t notFinite() const { return not_finite_; }
   const std::vector<Entry>& entries() const { return values_; }
+  /// Median time between two values [s]; 0 for fewer than two.
+  double interval() const;
   /// Removes the entries at these indices, which ascend.
   void drop(const std::vector<std::size_t>& indices);
 
@@ -31,11 +33,17 @@ class TimeSeries {
   /// where they are more than `longest_gap_ns` apart. Values on the other side of such a gap have no
   /// influence.
   std::optional<double> between(std::int64_t stamp_ns, std::int64_t longest_gap_ns) const;
-  /// The same over gaps of any length. Before the first value it is the first, after the last the last one.
-  /// The series must not be empty.
+  /// The same by linear interpolation.
+  std::optional<double> straight(std::int64_t stamp_ns, std::int64_t longest_gap_ns) const;
+  /// As between(), over gaps of any length. Before the first value it is the first, after the last the last
+  /// one. The series must not be empty.
   double nearby(std::int64_t stamp_ns) const;
 
  private:
+  // `rule`: the value at the stamp, by the index of the last value before it.
+  template <typename Rule>
+  std::optional<double> interpolated(std::int64_t stamp_ns, std::int64_t longest_gap_ns, Rule rule) const;
+
   std::vector<Entry> values_;
   std::uint64_t not_finite_ = 0;
 };

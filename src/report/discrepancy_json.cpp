@@ -78,6 +78,7 @@ static void members(MembersWriter& list, const discrepancy::SmallestSeen& seen) 
 
 static void members(MembersWriter& list, const discrepancy::TooSmall& small) {
   list("explanation", small.explanation)("p", small.p)("at_map_pa", small.at_map);
+  list("least_gap_pa", small.least_gap);
 }
 
 static void members(MembersWriter& list, const discrepancy::Scatter& scatter) {

@@ -84,8 +84,7 @@ std::string seenText(const DiscrepancyReport& report) {
           : "Would have been seen, from this size at the map: " + settings::joined(texts, "; ") + ".";
   for (const discrepancy::TooSmall& one : report.too_small) {
     text += (text.empty() ? "" : " ") + one.explanation + " is visible, but with " +
-            pressureText(one.at_map) + " it is below the least gap of " + pressureText(report.least_gap) +
-            ".";
+            pressureText(one.at_map) + " it is below the least gap of " + pressureText(one.least_gap) + ".";
   }
   return text;
 }

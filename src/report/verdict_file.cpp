@@ -91,7 +91,8 @@ std::string verdictText(const discrepancy::DiscrepancyReport& report) {
   verdict["effects"] = effectsOf(all);
   verdict["in_use"] = pick(all["in_use"], {"situation", "before_pa=before", "after_pa=after"});
   verdict["smallest_seen"] = pick(all["smallest_seen"], {"id", "at_map_pa=at_map"});
-  verdict["too_small"] = pick(all["too_small"], {"explanation", "p", "at_map_pa=at_map"});
+  verdict["too_small"] =
+      pick(all["too_small"], {"explanation", "p", "at_map_pa=at_map", "least_gap_pa=least_gap"});
   verdict["scatter"] = pick(all["scatter"], {"part", "size", "unit", "interval", "at_map_pa=at_map"});
   verdict["asked"] = pick(all["answers"], {"id", "answer"});
   verdict["not_identifiable"] = notIdentifiableOf(all);

@@ -94,6 +94,30 @@ TEST(RecordingBuilder, InterpolatesTheReferenceToTheScans) {
   EXPECT_EQ(recording.sensor.serial, "0001");
 }
 
+// A triangle that is read ten times a cycle, at any phase. Its error is known, because the scans between the
+// readings are simulated.
+TEST(RecordingBuilder, EstimatesTheErrorOfTheReference) {
+  const auto triangle = [](int ms) { return 1e3 * std::abs(ms % 2000 - 1000); };
+  double error = 0, estimate = 0;
+  for (int phase = 0; phase < 200; phase += 20) {
+    std::vector<Event> events = {description(100e3), surface(ms(0), "flat", 0)};
+    for (int i = 0; i <= 1000; ++i)
+      events.push_back(scan(ms(20 * i), static_cast<std::uint32_t>(i), static_cast<std::uint16_t>(i)));
+    for (int at = phase; at <= 20000; at += 200) events.push_back(chamber(ms(at), 100e3 + triangle(at)));
+    const Recording recording = build(events);
+    double square = 0;
+    for (std::size_t i = 0; i < recording.scans(); ++i) {
+      const auto at = static_cast<int>(std::lround(1e3 * recording.time[i])) +
+                      static_cast<int>((recording.start_ns - ms(0)) / 1'000'000);
+      square += std::pow(recording.pressure[i] - triangle(at), 2);
+    }
+    error += square / static_cast<double>(recording.scans());
+    estimate += std::pow(recording.reference_error, 2);
+  }
+  EXPECT_NEAR(std::sqrt(estimate / error), 1, 0.1);
+  EXPECT_EQ(build(session()).reference_error, 0) << "a straight course";
+}
+
 TEST(RecordingBuilder, TheOrderOfTheEventsDoesNotMatter) {
   std::vector<Event> events = session();
   for (std::uint32_t i = 0; i < 10; ++i) events.push_back(scan(ms(100 * i), 50 + i, 4000));  // duplicates

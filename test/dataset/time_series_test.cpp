@@ -47,6 +47,13 @@ TEST(TimeSeries, InterpolatesAsSciPyDoes) {
   EXPECT_NEAR(at(series({0, 1, 2}, {0, 1, -8}), 0.5), 0.875, 1e-12);
 }
 
+TEST(TimeSeries, StraightIsTheLineBetweenTheNeighbours) {
+  const TimeSeries reference = series({0, 2, 3}, {1, 5, 0});
+  EXPECT_NEAR(reference.straight(ns(0.5), kLongestGap).value(), 2, 1e-12);
+  EXPECT_EQ(reference.straight(ns(2), kLongestGap), 5);
+  EXPECT_FALSE(reference.straight(ns(0.5), kLongestGap / 2));
+}
+
 // A chamber that fills exponentially in 10 s, read once in 2 s. The largest error of linear interpolation is
 // 2^2 / 8 / 10^2 = 0.5 % of the final pressure times exp(-t / 10 s).
 TEST(TimeSeries, FollowsAnExponentialFillingBetweenRareReadings) {

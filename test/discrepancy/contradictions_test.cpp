@@ -160,7 +160,7 @@ class Checker {
       }
     }
     for (const auto& small : report_.too_small)
-      need(small.at_map < report_.least_gap, small.explanation + " is not too small");
+      need(small.at_map < small.least_gap, small.explanation + " is not too small");
     for (const auto& answer : report_.answers) {
       need((answer.answer == "not_identifiable") == (hidden_.count(answer.id) > 0 && !credible(answer.id)) ||
                report_.verdict == Verdict::kNotIdentifiable,

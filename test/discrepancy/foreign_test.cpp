@@ -1,10 +1,11 @@
-// Readings whose phase is not that of their load, gains of single presses, and a decay after each motion. The
-// right answers were written down before the search was asked.
+// Readings whose phase is not that of their load, gains of single presses, a decay after each motion, and a
+// reference that is too slow. The right answers were written down before the search was asked.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "dataset/recording_builder.h"
 #include "discrepancy/answer.h"
 #include "discrepancy/decide/pace.h"
 
@@ -107,6 +108,57 @@ TEST(Foreign, DecayAfterEachMotionHasNoName) {
         return -31e3 * fading;
       }));
   EXPECT_EQ(report.verdict, Verdict::kUnknown) << report.sentence;
+}
+
+// The recording as its bag gives it where the reference is read at every third scan.
+dataset::Recording withSlowReference(const dataset::Recording& recording) {
+  constexpr double kAmbient = 101325;  // [Pa]
+  dataset::RecordingBuilder builder;
+  builder.addSurface(recording.start_ns, recording.conditions.at(0));
+  for (std::size_t i = 0; i < recording.scans(); ++i) {
+    const std::int64_t stamp = recording.start_ns + std::llround(1e9 * recording.time[i]);
+    const matrix::MatrixSize size = recording.layout.size;
+    builder.addScan(stamp, static_cast<std::uint32_t>(i),
+                    {size, recording.full_scale, recording.scan(i), size.taxels()});
+    if (i % 3 == 0) builder.addChamberPressure(stamp, recording.pressure[i] + kAmbient);
+  }
+  dataset::RecordingOptions options;
+  options.name = recording.name;
+  options.ambient_pressure = kAmbient;
+  return builder.take(options);
+}
+
+// The chamber is filled and vented exponentially within 1.5 s each, and the reference is read each 0.15 s:
+// where it turns, nobody knows the pressure.
+TEST(Foreign, SlowReferenceIsNoEffect) {
+  std::string rig = planted::rig("chamber: {cycles: 1}\n", planted::kFlat);
+  const std::string rates = "{scan_rate: 2.5, transducer_rate: 2.5}";
+  rig.replace(rig.find(rates), rates.size(), "{scan_rate: 20, transducer_rate: 20}");
+  DiscrepancyProblem problem = planted::problem(rig, "");
+  dataset::Recording& recording = problem.recordings.front();
+  for (std::size_t i = 0; i < recording.scans(); ++i) {
+    const double turns = recording.time[i] / 3.01, phase = 2 * (turns - std::floor(turns));
+    const double filled = std::expm1(-5 * std::fmod(phase, 1)) / std::expm1(-5.0);
+    const double peak = 620e3 - 20e3 * std::fmod(3 * std::floor(turns), 10);
+    recording.pressure[i] = peak * (phase < 1 ? filled : 1 - filled);
+  }
+  planted::readOut({recording}, problem);
+  recording = withSlowReference(recording);
+  EXPECT_EQ(answerTo(problem).verdict, Verdict::kNone);
+  recording.reference_error = recording.reference_interval = 0;
+  EXPECT_NE(answerTo(problem).verdict, Verdict::kNone) << "this test cannot fail";
+}
+
+// In a chamber of 45 kPa loops and first loads have the same shapes as in one of 620 kPa.
+TEST(Foreign, EffectsScaleWithTheRangeOfTheChamber) {
+  const std::string low =
+      planted::withProgram(R"(  - cycles: {peak: 45000, rate: 2900, dwell_peak: 8, cycles: 5}
+  - cycles: {peak: 45000, rate: 580, dwell_peak: 8, cycles: 3}
+)");
+  const DiscrepancyReport loop =
+      answerTo(planted::problem(low, "  hysteresis: {loop_width: 0.06, span: 45000, reach: 6000}\n"));
+  ASSERT_EQ(loop.verdict, Verdict::kNamed) << loop.sentence;
+  EXPECT_EQ(loop.effects.at(0).id, "hysteresis");
 }
 
 }  // namespace

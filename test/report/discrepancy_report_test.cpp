@@ -54,7 +54,7 @@ TEST(DiscrepancyText, SaysWhatNoneExcludes) {
   report.p = 0.42;
   report.least_gap = 600;
   report.smallest_seen = {{"creep", 2400}, {"drift", NAN}, {"hysteresis", 700}};
-  report.too_small = {{"time_skew", 0.0033, 310}};
+  report.too_small = {{"time_skew", 0.0033, 310, 600}};
   expectHolds(
       discrepancyText(report),
       {"by chance is 0.42",
@@ -163,9 +163,8 @@ TEST(ConfirmationText, SaysPassedOrNotAndTheRival) {
   confirmation.best_rival = "creep";
   expectHolds(confirmationText(confirmation),
               {"Not confirmed: The loop", "relative to the prediction: 0.40", "more: creep"});
-  expectHolds(
-      confirmationYaml(confirmation, "abc", {{"new.bag", "def", 10, 0}}),
-      {"passed: false", "size: 0.4", "best_rival: creep", "prediction_hash: abc", "sha256: def"});
+  expectHolds(confirmationYaml(confirmation, "abc", {{"new.bag", "def", 10, 0}}),
+              {"passed: false", "size: 0.4", "best_rival: creep", "prediction_hash: abc", "sha256: def"});
 }
 
 }  // namespace

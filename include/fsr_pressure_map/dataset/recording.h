@@ -56,6 +56,8 @@ struct Recording {
   std::shared_ptr<const CountFile> count_file;
   std::vector<double>
       pressure;  ///< gauge pressure of the chamber, interpolated to the scan [Pa]; empty = none recorded
+  double reference_interval = 0;         ///< median time between readings of that pressure [s]; 0 = not known
+  double reference_error = 0;            ///< estimated rms error of that interpolation [Pa]
   std::vector<std::uint32_t> condition;  ///< index into `conditions`
   std::vector<double> temperature;       ///< [degree Celsius], interpolated; empty = none recorded
   std::int64_t start_ns = 0;             ///< header stamp of time 0 [ns]

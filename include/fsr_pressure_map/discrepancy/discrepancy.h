@@ -121,6 +121,7 @@ struct TooSmall {
   std::string explanation;  ///< ids of effects, or the name of generic terms
   double p = 1;             ///< as CandidateScore::p
   double at_map = 0;        ///< rms at the map [Pa]
+  double least_gap = 0;     ///< the least gap of this explanation [Pa]
 };
 
 /// Random change of the mean reading that is slower than the noise of single scans. It is a part of the noise

@@ -6,6 +6,7 @@
 #include "discrepancy/decide/search.h"
 #include "discrepancy/fit/cycle_noise.h"
 #include "discrepancy/samples/available_evidence.h"
+#include "discrepancy/samples/faults.h"
 #include "settings/number_text.h"
 #include "simulation/effects/effect_library.h"
 #include "statistics/samples.h"
@@ -281,7 +282,7 @@ void Verdicts::listCovariates() {
     test.p = one.p_alone;
     test.adjusted = one.p;
     test.at_map = one.at_map;
-    test.depends = told_ && one.p <= options_.level && one.at_map >= decision_.least_gap;
+    test.depends = told_ && one.p <= options_.level && one.at_map >= search_.leastGap(one.explaining);
     decision_.covariates.push_back(test);
   }
 }
@@ -302,7 +303,8 @@ void Verdicts::listSmallestSeen() {
         const settings::Range& range =
             simulation::parameter(measured_.info(signature.id), signature.strength).plausible;
         plausible = plausible || strength <= std::max(std::abs(range.low), std::abs(range.high));
-        sizes.push_back(std::max(search_.atMap(*least * search_.column(column)), decision_.least_gap));
+        sizes.push_back(
+            std::max(search_.atMap(*least * search_.column(column)), search_.leastGap(one.explaining)));
       }
     }
     const double size = plausible && !sizes.empty() ? statistics::upperMedian(sizes) : NAN;
@@ -317,7 +319,8 @@ void Verdicts::listTooSmall() {
   if (!credible.empty() && credible.front() != appraisal_.best) shown.push_back(credible.front());
   for (const std::size_t e : shown) {
     const Weighed& one = appraisal_.all[e];
-    decision_.too_small.push_back({nameOf(one.explaining), one.p, one.at_map});
+    decision_.too_small.push_back(
+        {nameOf(one.explaining), one.p, one.at_map, search_.leastGap(one.explaining)});
   }
 }
 
@@ -327,7 +330,7 @@ const CycleNoise& Verdicts::noise() const {
 }
 
 Decision Verdicts::run() {
-  decision_.least_gap = search_.leastGap();
+  decision_.least_gap = leastGap(measured_, options_);
   if (search_.empty()) return decision_;
   search_.run();
   decision_.p = appraisal_.p;

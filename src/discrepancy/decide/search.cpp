@@ -9,6 +9,7 @@
 #include "discrepancy/fit/signatures.h"
 #include "discrepancy/fit/static_fit.h"
 #include "discrepancy/samples/available_evidence.h"
+#include "discrepancy/samples/faults.h"
 #include "discrepancy/samples/measured.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "fsr_pressure_map/simulation/simulation_settings.h"
@@ -104,16 +105,15 @@ Search::Search(const Measured& measured, const CommonTraces& common, const Stati
       least_slope_(kLeastSlope * meanSlope()) {}
 
 bool Search::matters() const {
-  double largest = appraisal_.all[appraisal_.best].at_map;
-  if (!appraisal_.credible.empty()) largest = std::max(largest, preferred().at_map);
-  return largest >= leastGap();
+  const auto large = [&](const Weighed& one) { return one.at_map >= leastGap(one.explaining); };
+  return large(appraisal_.all[appraisal_.best]) || (!appraisal_.credible.empty() && large(preferred()));
 }
 
 const Weighed* Search::course() const {
   if (!appraisal_.course) return nullptr;
   const Weighed& course = appraisal_.all[appraisal_.course->explanation];
   const bool plausible = courseStep(appraisal_.course->variance.high) <= courseParameter().plausible.high;
-  return plausible && course.at_map >= leastGap() ? &course : nullptr;
+  return plausible && course.at_map >= leastGap(course.explaining) ? &course : nullptr;
 }
 
 const simulation::EffectParameter& Search::courseParameter() const {
@@ -127,8 +127,8 @@ double Search::courseStep(double variance) const {
   return std::sqrt(variance) * (zero ? measured_.full_scale : 1);
 }
 
-double Search::leastGap() const {
-  return std::isnan(options_.least_gap) ? options_.least_gap_share * design_.range : options_.least_gap;
+double Search::leastGap(const Explaining& explaining) const {
+  return discrepancy::leastGap(measured_, options_, explaining.slow);
 }
 
 // Where the fit of a single effect begins.

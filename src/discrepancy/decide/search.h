@@ -36,7 +36,7 @@ class Search {
   bool found() const { return appraisal_.p <= options_.level; }
   /// Whether what was found is at least as large as the least gap.
   bool matters() const;
-  double leastGap() const;  ///< [Pa]
+  double leastGap(const Explaining& explaining) const;  ///< [Pa]
   /// A random course that is at least as large as the least gap and not larger than its sources know;
   /// nullptr = none.
   const Weighed* course() const;

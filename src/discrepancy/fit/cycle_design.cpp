@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "statistics/samples.h"
 
@@ -11,6 +12,8 @@ namespace {
 
 constexpr double kBins = 40;           // of a cycle, about
 constexpr double kKnotDistance = 6e3;  // [Pa]: wider knots turn a step of the static curve into a loop
+constexpr double kSudden = 0.5;  // change of the rate between two readings of the reference, of the fastest
+constexpr double kFewestKnown = 1.0 / 3;  // of a cycle's samples: with fewer, all are used
 constexpr double kFewestKnots = 14, kMostKnots = 40;
 constexpr std::size_t kNoiseLevels = 6;  // bins of pressure for the variance of the white noise
 
@@ -26,26 +29,57 @@ std::vector<double> evenKnots(double low, double high) {
   return knots;
 }
 
-// First sample of each bin of a cycle, and the end of the last. Bins have equal shares of time and of change
-// of pressure, and end where the direction changes.
-std::vector<std::size_t> cutIntoBins(const Measured& measured, const MeasuredCycle& cycle) {
-  const auto samples = cycle.last - cycle.first;
+// Samples of a cycle, without those at which the pressure is not known. Where a reference that is read more
+// slowly than the sheet changes its rate, it may have done so anywhere between two readings, and the
+// interpolated pressure is wrong up to the next reading but one.
+std::vector<std::size_t> knownSamples(const Measured& measured, const MeasuredCycle& cycle) {
+  std::vector<std::size_t> all(cycle.last - cycle.first);
+  std::iota(all.begin(), all.end(), cycle.first);
+  const Visit& visit = measured.visits[cycle.visit];
+  const double interval = visit.reference_interval;
+  const double seconds = measured.time[cycle.last - 1] - measured.time[cycle.first];
+  if (interval * static_cast<double>(all.size()) < 2 * seconds) return all;
+  double fastest = 0;
+  for (const std::size_t i : all) fastest = std::max(fastest, std::abs(measured.rate[i]));
+  std::vector<std::uint8_t> unknown(all.size(), 0);
+  std::size_t after = visit.first;
+  for (std::size_t before = visit.first; before < visit.last; ++before) {
+    while (after < visit.last && measured.time[after] - measured.time[before] < interval) ++after;
+    if (after == visit.last) break;
+    if (std::abs(measured.rate[after] - measured.rate[before]) < kSudden * fastest) continue;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const double time = measured.time[all[k]];
+      if (time > measured.time[before] - interval && time < measured.time[after] + interval) unknown[k] = 1;
+    }
+  }
+  std::vector<std::size_t> known;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    if (!unknown[k]) known.push_back(all[k]);
+  }
+  return static_cast<double>(known.size()) < kFewestKnown * static_cast<double>(all.size()) ? all : known;
+}
+
+// First of the samples of each bin, and the end of the last. Bins have equal shares of time and of change of
+// pressure, and end where the direction changes.
+std::vector<std::size_t> cutIntoBins(const Measured& measured, const std::vector<std::size_t>& samples) {
+  const auto& pressure = measured.pressure;
   double change = 0;
-  for (std::size_t i = cycle.first + 1; i < cycle.last; ++i)
-    change += std::abs(measured.pressure[i] - measured.pressure[i - 1]);
-  const double duration = measured.time[cycle.last - 1] - measured.time[cycle.first];
-  const double wanted = 1 / std::min(kBins, static_cast<double>(samples));
-  std::vector<std::size_t> starts = {cycle.first};
+  for (std::size_t k = 1; k < samples.size(); ++k)
+    change += std::abs(pressure[samples[k]] - pressure[samples[k - 1]]);
+  const double duration = measured.time[samples.back()] - measured.time[samples.front()];
+  const double wanted = 1 / std::min(kBins, static_cast<double>(samples.size()));
+  std::vector<std::size_t> starts = {0};
   double along = 0;
-  for (std::size_t i = cycle.first + 1; i < cycle.last; ++i) {
-    along += 0.5 * std::abs(measured.pressure[i] - measured.pressure[i - 1]) / std::max(change, 1e-9);
-    along += 0.5 * (measured.time[i] - measured.time[i - 1]) / std::max(duration, 1e-9);
-    const bool turned = measured.direction[i] != measured.direction[i - 1] && along > wanted / 4;
+  for (std::size_t k = 1; k < samples.size(); ++k) {
+    const std::size_t i = samples[k], before = samples[k - 1];
+    along += 0.5 * std::abs(pressure[i] - pressure[before]) / std::max(change, 1e-9);
+    along += 0.5 * (measured.time[i] - measured.time[before]) / std::max(duration, 1e-9);
+    const bool turned = measured.direction[i] != measured.direction[before] && along > wanted / 4;
     if (along < wanted && !turned) continue;
-    starts.push_back(i);
+    starts.push_back(k);
     along = 0;
   }
-  starts.push_back(cycle.last);
+  starts.push_back(samples.size());
   return starts;
 }
 
@@ -102,7 +136,8 @@ class Binning {
 
   CycleBins of(std::size_t c) const {
     const MeasuredCycle& cycle = measured_.cycles[c];
-    const std::vector<std::size_t> starts = cutIntoBins(measured_, cycle);
+    const std::vector<std::size_t> samples = knownSamples(measured_, cycle);
+    const std::vector<std::size_t> starts = cutIntoBins(measured_, samples);
     const auto bins = static_cast<Index>(starts.size() - 1);
     CycleBins result;
     result.cycle = c;
@@ -116,7 +151,7 @@ class Binning {
     result.columns.setZero(bins, columns_.cols() + 1);
     for (Index b = 0; b < bins; ++b) {
       const auto bin = static_cast<std::size_t>(b);
-      for (std::size_t i = starts[bin]; i < starts[bin + 1]; ++i) add(result, b, i);
+      for (std::size_t k = starts[bin]; k < starts[bin + 1]; ++k) add(result, b, samples[k]);
       finish(result, b);
     }
     return result;

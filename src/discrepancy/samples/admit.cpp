@@ -188,6 +188,7 @@ void appendRecording(Measured& measured, const dataset::ConditionClasses& classe
     while (to < recording.scans() && recording.condition[to] == recording.condition[from]) ++to;
     const std::size_t condition = recording.condition[from];
     Visit visit{r, recording.conditions.at(condition), classes.class_of[r][condition], 0, 0, from, to};
+    visit.reference_interval = recording.reference_interval;
     if (!visit.surface.known()) visit.surface.curvature = {matrix::Curvature{}};
     measured.visits.push_back(visit);
     appendVisit(measured, start, pooled);

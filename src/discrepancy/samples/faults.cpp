@@ -78,9 +78,13 @@ FaultyReadings readingsOf(const Measured& measured, const health::Faults& found)
 
 }  // namespace
 
-double leastGap(const Measured& measured, const DiscrepancyOptions& options) {
-  return std::isnan(options.least_gap) ? options.least_gap_share * measured.range()
-                                       : options.least_gap;
+double leastGap(const Measured& measured, const DiscrepancyOptions& options, bool slow) {
+  if (!std::isnan(options.least_gap)) return options.least_gap;
+  double least = options.least_gap_share * measured.range();
+  for (const dataset::Recording& recording : *measured.recordings) {
+    if (!slow) least = std::max(least, recording.reference_error);
+  }
+  return least;
 }
 
 Faults findFaults(const Measured& measured, const DiscrepancyOptions& options,

@@ -24,7 +24,8 @@ struct Faults {
 };
 
 /// Least size at the map that matters [Pa]: `least_gap`, or its share of the range of the chamber's pressure.
-double leastGap(const Measured& measured, const DiscrepancyOptions& options);
+/// Of what changes within a cycle (not `slow`) it is at least the error of the interpolated reference.
+double leastGap(const Measured& measured, const DiscrepancyOptions& options, bool slow = true);
 
 /// health::findFaults() in the used taxels. Both tests need `level`, and a size at the map of at least
 /// leastGap().

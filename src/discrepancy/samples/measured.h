@@ -52,8 +52,9 @@ struct Visit {
   std::size_t curvature_class = 0;
   std::size_t first = 0;
   std::size_t last = 0;
-  std::size_t first_scan = 0;  ///< of the recording
-  std::size_t last_scan = 0;   ///< likewise, excluded
+  std::size_t first_scan = 0;     ///< of the recording
+  std::size_t last_scan = 0;      ///< likewise, excluded
+  double reference_interval = 0;  ///< of its recording [s]
 };
 
 /// How a cycle is used. The final results are measured on the hold-out cycles, which serve nothing else.
