@@ -234,7 +234,7 @@ void Investigation::lookAtStaticCurves() {
   misfit_ = findStaticMisfit(measured_, *fit_, common_.all, squareOfReadings());
   const bool else_found =
       !detections_.empty() || decision_.verdict != Verdict::kNone || !measured_.gain.empty();
-  if (!isMisfit(misfit_, else_found) || misfit_.at_map < leastGap(measured_, problem_.options)) return;
+  if (!isMisfit(misfit_, else_found) || misfit_.at_map < decision_.least_gap) return;
   if (isSaturation(misfit_, measured_)) {
     const Detection saturation = saturationOf(misfit_, measured_, *fit_, report_.base);
     const double level = saturation.enable.front().values.at("level") / measured_.full_scale;

@@ -149,7 +149,7 @@ TEST(Foreign, SlowReferenceIsNoEffect) {
   EXPECT_NE(answerTo(problem).verdict, Verdict::kNone) << "this test cannot fail";
 }
 
-// In a chamber of 45 kPa loops and first loads have the same shapes as in one of 620 kPa.
+// In a chamber of 45 kPa a loop has the same shape as in one of 620 kPa.
 TEST(Foreign, EffectsScaleWithTheRangeOfTheChamber) {
   const std::string low =
       planted::withProgram(R"(  - cycles: {peak: 45000, rate: 2900, dwell_peak: 8, cycles: 5}

@@ -81,9 +81,9 @@ FaultyReadings readingsOf(const Measured& measured, const health::Faults& found)
 double leastGap(const Measured& measured, const DiscrepancyOptions& options, bool slow) {
   if (!std::isnan(options.least_gap)) return options.least_gap;
   double least = options.least_gap_share * measured.range();
-  for (const dataset::Recording& recording : *measured.recordings) {
-    if (!slow) least = std::max(least, recording.reference_error);
-  }
+  if (slow) return least;
+  for (const dataset::Recording& recording : *measured.recordings)
+    least = std::max(least, recording.reference_error);
   return least;
 }
 
