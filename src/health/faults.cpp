@@ -42,6 +42,11 @@ constexpr std::size_t kParts = 4;
 constexpr double kFades = 0.03;
 constexpr double kTells = 0.1;  // of the largest sum of squared expected readings of a part
 constexpr int kTriedDurations = 60;
+// A taxel that loses its contact in each spell: tried durations and starts, largest share of the gain that
+// may be left at the end, and of the squared error of a reading, or a gain, that is kept through the spell.
+constexpr int kDurations = 24;
+constexpr std::size_t kStarts = 12, kFewestScans = 4;
+constexpr double kMostLeft = 0.5, kUnlikeKept = 0.5;
 
 // Share of the squared deviations of a line that the direction explains at the same reading. A line that does
 // the same in every cycle has a loop or a lag; a contact fails at any time.
@@ -200,7 +205,8 @@ struct FailingTaxel {
   std::optional<FaultKind> kind;  // none: it is not known how it fails
   double p = 1;
   Spells spells;
-  Fade fade;
+  std::vector<TaxelSpell> fades;  // of a taxel that fades
+  double lasts = 0;               // from the start of a fade until nothing would be left [s]
 };
 
 // A row or column.
@@ -248,6 +254,7 @@ class FaultSearch {
   std::optional<FaultKind> kindOf(std::size_t taxel, const Spells& spells, double& other) const;
   std::vector<PartGain> gainsOf(std::size_t taxel) const;
   std::optional<Fade> fadeOf(std::size_t taxel) const;
+  void fadeInSpells(FailingTaxel& failing) const;
   std::vector<FailingTaxel> failingTaxels() const;
   bool findLine(const std::vector<FaultKind>& kinds);
   void joinLines(FaultKind kind, const std::vector<FailingTaxel>& failing);
@@ -540,6 +547,92 @@ std::optional<Fade> FaultSearch::fadeOf(std::size_t taxel) const {
   return best;
 }
 
+// The scans of a stay that begin as long before a spell as it lasts: contact is lost before much is.
+struct Window {
+  std::size_t stay = 0, first = 0, from = 0, to = 0;  // scans; the spell begins at `from`
+  std::vector<double> time, expected, deviation;      // [s], [unit of the courses]; since `first`
+};
+
+struct WindowError {
+  double error = INFINITY;
+  double start = 0;  // of the fade [s]
+  double left = 1;   // of the gain at the end
+};
+
+// The start at which a fade that takes `lasts` [s] explains a window best.
+WindowError bestStart(const Window& window, double lasts) {
+  WindowError best;
+  const std::size_t before = window.from - window.first;
+  for (std::size_t k = 0; k <= kStarts; ++k) {
+    const double start = window.time[k * before / kStarts];
+    const auto left = [&](std::size_t i) {
+      return std::clamp(1 - (window.time[i] - start) / lasts, 0.0, 1.0);
+    };
+    double error = 0;
+    for (std::size_t i = 0; i < window.time.size(); ++i)
+      error += std::pow(window.deviation[i] + window.expected[i] * (1 - left(i)), 2);
+    if (error < best.error) best = {error, start, left(window.time.size() - 1)};
+  }
+  return best;
+}
+
+// Squared error of what else a spell can be: a reading that is kept, or a gain that is, whichever fits
+// better.
+double errorOfKept(const Window& window) {
+  const auto from = static_cast<Eigen::Index>(window.from - window.first);
+  const auto in_spell = static_cast<Eigen::Index>(window.time.size()) - from;
+  using Values = Eigen::Map<const Eigen::ArrayXd>;
+  const Values expected(window.expected.data() + from, in_spell);
+  const Eigen::ArrayXd reading = expected + Values(window.deviation.data() + from, in_spell);
+  const double gain = (reading * expected).sum() / std::max(1e-12, expected.square().sum());
+  return Values(window.deviation.data(), from).square().sum() +
+         std::min((reading - reading.mean()).square().sum(), (reading - gain * expected).square().sum());
+}
+
+// Whether a taxel loses its contact in the course of each spell and has it again afterwards. One duration
+// holds for all spells of a taxel.
+void FaultSearch::fadeInSpells(FailingTaxel& failing) const {
+  std::vector<Window> windows;
+  double squares = 0, kept = 0, longest = 0;
+  for (std::size_t v = 0; v < courses_.size(); ++v) {
+    const StayCourses& stay = courses_[v];
+    TaxelCourse course(stay, failing.taxel);
+    eachSpell(failing.spells[v], [&](std::size_t from, std::size_t to) {
+      Window window{v, from - std::min(from, to - from), from, to, {}, {}, {}};
+      for (std::size_t i = window.first; i < to; ++i) {
+        window.time.push_back(stay.stay->time(i));
+        window.expected.push_back(stay.expectedReading(failing.taxel, i) / stay.unit[failing.taxel]);
+        window.deviation.push_back(course.deviates(i));
+        squares += std::pow(window.deviation.back(), 2);
+      }
+      kept += errorOfKept(window);
+      longest = std::max(longest, window.time.back() - window.time.front());
+      if (to - from >= kFewestScans) windows.push_back(std::move(window));
+    });
+  }
+  if (windows.empty()) return;
+  double least = INFINITY;
+  for (int d = 0; d < kDurations; ++d) {
+    const double lasts = 0.1 * longest * std::pow(10, 1.5 * d / kDurations);
+    double error = 0, left = 0;
+    std::vector<TaxelSpell> fades;
+    for (const Window& window : windows) {
+      const WindowError best = bestStart(window, lasts);
+      error += best.error;
+      left = std::max(left, best.left);
+      const Stay& stay = *courses_[window.stay].stay;
+      const double end = window.to < stay.last - stay.first ? boundary(stay, window.to) : INFINITY;
+      fades.push_back({failing.taxel, best.start, end, 0});
+    }
+    if (error >= least || left > kMostLeft) continue;
+    least = error;
+    failing.fades = fades;
+    failing.lasts = lasts;
+  }
+  if (least > std::min((1 - kOfOneKind) * squares, kUnlikeKept * kept)) return;
+  failing.kind = FaultKind::kFadingTaxels;
+}
+
 std::vector<FailingTaxel> FaultSearch::failingTaxels() const {
   std::size_t longest = 0;
   for (const StayCourses& stay : courses_) longest = std::max(longest, stay.scans());
@@ -557,9 +650,11 @@ std::vector<FailingTaxel> FaultSearch::failingTaxels() const {
     failing.push_back({taxel, kindOf(taxel, spells, other), outlier.p, spells, {}});
     // What is dead at last may have faded before.
     const std::optional<Fade> fade = failing.back().kind && other == 0 ? std::nullopt : fadeOf(taxel);
+    if (!fade && !failing.back().kind) fadeInSpells(failing.back());
     if (!fade) continue;
     failing.back().kind = FaultKind::kFadingTaxels;
-    failing.back().fade = *fade;
+    failing.back().fades = {{taxel, fade->start, INFINITY, 0}};
+    failing.back().lasts = fade->lasts;
     for (std::vector<bool>& stay : failing.back().spells) stay.assign(stay.size(), true);
   }
   return failing;
@@ -731,8 +826,8 @@ Faults FaultSearch::run(const FaultProgress& progress) {
     for (const FailingTaxel& one : failing) {
       if (one.kind != kind || !isSound(one.taxel)) continue;
       members[one.taxel] = one.spells;
-      fading.push_back({one.taxel, one.fade.start, INFINITY, 0});
-      lasts.push_back(one.fade.lasts);
+      fading.insert(fading.end(), one.fades.begin(), one.fades.end());
+      lasts.push_back(one.lasts);
       p = std::min(p, one.p);
     }
     if (members.empty() || !keep(kind, p, members) || kind != FaultKind::kFadingTaxels) continue;

@@ -83,8 +83,8 @@ using FaultProgress = std::function<void(double share)>;
 ///
 /// A failing taxel is named only where the rule of TaxelWatch (verdictOf()) calls it dead or stuck in its
 /// spells, with what is expected of it in place of its neighbours, or where it fades: its gain falls from part
-/// to part of each stay. A reading that follows less than kResponds of a load that came and went counts as
-/// kept.
+/// to part of each stay, or in the course of each spell. A reading that follows less than kResponds of a load
+/// that came and went counts as kept.
 Faults findFaults(const Sheet& sheet, const FaultOptions& options = {}, const FaultProgress& progress = {});
 
 }  // namespace fsr::health

@@ -61,6 +61,32 @@ TEST(Faults, AFadeOfTheSimulationIsFoundAgain) {
   EXPECT_NEAR(faults[0].fades_over, 4000, 600);
 }
 
+// Taxel 5 has the gain left(seconds) from 100 s on, and again from 400 s on, each time for 20 s.
+std::vector<health::Fault> inSpells(double (*left)(double seconds)) {
+  return faultsOf(planted::problemReading(planted::kTwoSpeeds, [&](const planted::Changed& now) {
+    const double since = now.time - (now.time < 400 ? 100 : 400);
+    return now.taxel == 5 && since >= 0 && since < 20 ? now.count * left(since) : now.count;
+  }));
+}
+
+TEST(Faults, ATaxelThatLosesItsContactAndHasItAgainIsDead) {
+  for (const auto left : {+[](double seconds) { return std::exp(-seconds / 8); },
+                          +[](double seconds) { return std::max(0.0, 1 - seconds / 25); }}) {
+    const std::vector<health::Fault> faults = inSpells(left);
+    ASSERT_EQ(faults.size(), 1u);
+    EXPECT_EQ(faults[0].taxels, std::vector<std::size_t>{5});
+    EXPECT_EQ(effectOf(faults[0]).id, "dead_taxel");
+    EXPECT_GT(faults[0].fades_over, 10);
+    ASSERT_EQ(faults[0].spells.size(), 2u);
+    EXPECT_NEAR(faults[0].spells[0].to, 120, 2);
+    EXPECT_NEAR(faults[0].spells[1].from, 400, 8);
+  }
+}
+
+TEST(Faults, ATaxelThatReadsLessForAWhileDoesNotFade) {
+  EXPECT_TRUE(inSpells([](double) { return 0.6; }).empty());
+}
+
 TEST(Faults, ATaxelThatGainsDoesNotFade) {
   EXPECT_TRUE(fading([](double share) { return 0.8 + 0.2 * share; }).taxels.empty());
 }
