@@ -189,7 +189,9 @@ HeldOutScores::HeldOutScores(const CycleDesign& design, const CycleNoise& noise,
 void HeldOutScores::chooseColumns() {
   place_.assign(static_cast<std::size_t>(2 * design_.columns), -1);
   for (const Explaining& explanation : explanations_) {
+    first_form_.push_back(forms_.size());
     for (const Form& form : explanation.forms) {
+      forms_.push_back(&form);
       for (const Index column : form.columns) {
         Index& place = place_[static_cast<std::size_t>(column + (form.bent_only ? design_.columns : 0))];
         if (place >= 0) continue;
@@ -273,27 +275,46 @@ double HeldOutScores::uncertainty(const Whitened& cycle, const Eigen::MatrixXd& 
 
 // Sums of products over the cycles of one fold.
 struct HeldOutScores::Products {
-  Eigen::MatrixXd statics, mixed, columns;         // of the statics, with the columns, of the columns
+  Eigen::MatrixXd statics, mixed;                  // of the statics, with the columns
+  Grams forms;                                     // of the columns of each form
   Eigen::VectorXd static_reading, column_reading;  // with the reading
 
-  Products(Index statics_number, Index columns_number)
+  Products(Index statics_number, Index columns_number, Grams nothing)
       : statics(Eigen::MatrixXd::Zero(statics_number, statics_number)),
         mixed(Eigen::MatrixXd::Zero(statics_number, columns_number)),
-        columns(Eigen::MatrixXd::Zero(columns_number, columns_number)),
+        forms(std::move(nothing)),
         static_reading(Eigen::VectorXd::Zero(statics_number)),
         column_reading(Eigen::VectorXd::Zero(columns_number)) {}
 
   void operator+=(const Products& other) {
     statics += other.statics;
     mixed += other.mixed;
-    columns += other.columns;
+    for (std::size_t i = 0; i < forms.size(); ++i) forms[i] += other.forms[i];
     static_reading += other.static_reading;
     column_reading += other.column_reading;
   }
 };
 
+// Columns of different forms are never fitted together, so their products are not needed.
+void HeldOutScores::addGrams(const Eigen::MatrixXd& columns, Grams& sums) const {
+  for (std::size_t i = 0; i < forms_.size(); ++i) {
+    const Eigen::MatrixXd own = columnsOf(columns, *forms_[i]);
+    sums[i] += own.transpose() * own;
+  }
+}
+
+HeldOutScores::Grams HeldOutScores::noGrams() const {
+  Grams nothing;
+  for (const Form* form : forms_) {
+    const auto size = static_cast<Index>(form->columns.size());
+    nothing.push_back(Eigen::MatrixXd::Zero(size, size));
+  }
+  return nothing;
+}
+
 std::vector<HeldOutScores::Products> HeldOutScores::productsOfFolds() const {
-  std::vector<Products> of_fold(fold_number_, Products(model_.size(), cycles_.front().columns.cols()));
+  std::vector<Products> of_fold(fold_number_,
+                                Products(model_.size(), cycles_.front().columns.cols(), noGrams()));
   for (const Whitened& w : cycles_) {
     Products& sums = of_fold[w.fold];
     const Eigen::MatrixXd own = w.statics.transpose() * w.statics;
@@ -304,7 +325,7 @@ std::vector<HeldOutScores::Products> HeldOutScores::productsOfFolds() const {
         sums.statics(w.places[a], w.places[b]) += own(static_cast<Index>(a), static_cast<Index>(b));
     }
     addTo(sums.mixed, w.places, w.statics.transpose() * w.columns);
-    sums.columns += w.columns.transpose() * w.columns;
+    addGrams(w.columns, sums.forms);
     sums.column_reading += w.columns.transpose() * w.reading;
   }
   return of_fold;
@@ -317,18 +338,21 @@ void HeldOutScores::solveFolds() {
   folds_.resize(fold_number_);
   for (std::size_t f = 0; f <= fold_number_; ++f) {
     Fold& fold = f < fold_number_ ? folds_[f] : all_;
-    Products others(statics, columns);
+    Products others(statics, columns, noGrams());
     for (std::size_t other = 0; other < fold_number_; ++other) {
       if (other != f) others += of_fold[other];
     }
     const Eigen::MatrixXd gram_ss = others.statics + prior;
     fold.inverse = gram_ss.llt().solve(Eigen::MatrixXd::Identity(statics, statics));
     fold.solved = fold.inverse * others.mixed;
-    fold.gram = others.columns - others.mixed.transpose() * fold.solved;
+    fold.gram = others.forms;
+    for (std::size_t i = 0; i < forms_.size(); ++i)
+      fold.gram[i] -= columnsOf(others.mixed, *forms_[i]).transpose() * columnsOf(fold.solved, *forms_[i]);
     fold.right = others.column_reading - fold.solved.transpose() * others.static_reading;
+    if (f == fold_number_) mixed_ = std::move(others.mixed);
     if (f == fold_number_) break;
     const Eigen::VectorXd curve = fold.inverse * others.static_reading;
-    fold.test_gram = Eigen::MatrixXd::Zero(columns, columns);
+    fold.test_gram = noGrams();
     fold.test_static = Eigen::MatrixXd::Zero(columns, statics);
     for (Whitened& w : cycles_) {
       if (w.fold != f || w.covered.empty()) continue;
@@ -336,7 +360,7 @@ void HeldOutScores::solveFolds() {
       for (std::size_t a = 0; a < w.places.size(); ++a) own[static_cast<Index>(a)] = curve[w.places[a]];
       w.test_net = w.test_columns - w.test_statics * rowsOf(fold.solved, w.places);
       w.test_error = w.test_reading - w.test_statics * own;
-      fold.test_gram += w.test_net.transpose() * w.test_net;
+      addGrams(w.test_net, fold.test_gram);
       const Eigen::MatrixXd with = w.test_net.transpose() * w.test_statics;
       for (std::size_t a = 0; a < w.places.size(); ++a)
         fold.test_static.col(w.places[a]) += with.col(static_cast<Index>(a));
@@ -346,15 +370,21 @@ void HeldOutScores::solveFolds() {
   }
 }
 
-Eigen::MatrixXd HeldOutScores::part(const Eigen::MatrixXd& gram, const Form& form) const {
-  const auto size = static_cast<Index>(form.columns.size());
-  Eigen::MatrixXd result(size, size);
-  for (Index a = 0; a < size; ++a) {
-    for (Index b = 0; b < size; ++b)
-      result(a, b) =
-          gram(columnOf(form, static_cast<std::size_t>(a)), columnOf(form, static_cast<std::size_t>(b)));
+Eigen::MatrixXd HeldOutScores::columnsOf(const Eigen::MatrixXd& all, const Form& form) const {
+  Eigen::MatrixXd own(all.rows(), static_cast<Index>(form.columns.size()));
+  for (std::size_t k = 0; k < form.columns.size(); ++k)
+    own.col(static_cast<Index>(k)) = all.col(columnOf(form, k));
+  return own;
+}
+
+// Over all cycles, the statics eliminated.
+Eigen::MatrixXd HeldOutScores::gramOf(const Form& form) const {
+  Eigen::MatrixXd gram = -columnsOf(mixed_, form).transpose() * columnsOf(all_.solved, form);
+  for (const Whitened& w : cycles_) {
+    const Eigen::MatrixXd own = columnsOf(w.columns, form);
+    gram += own.transpose() * own;
   }
-  return result;
+  return gram;
 }
 
 Eigen::VectorXd HeldOutScores::part(const Eigen::VectorXd& right, const Form& form) const {
@@ -364,33 +394,34 @@ Eigen::VectorXd HeldOutScores::part(const Eigen::VectorXd& right, const Form& fo
 }
 
 void HeldOutScores::score() {
-  for (const Explaining& explanation : explanations_) {
+  for (std::size_t e = 0; e < explanations_.size(); ++e) {
+    const Explaining& explanation = explanations_[e];
+    const std::size_t first = first_form_[e];
     HeldOutScore score;
     score.nats.assign(cycles_.size(), 0.0);
     for (std::size_t f = 0; f < fold_number_; ++f) {
       FormFit best;
-      const Form* form = nullptr;
-      for (const Form& one : explanation.forms) {
-        const FormFit fit = fitForm(part(folds_[f].gram, one), part(folds_[f].right, one), one.free);
-        if (!form || fit.likelihood > best.likelihood) best = fit, form = &one;
+      std::size_t at = 0;
+      for (std::size_t i = 0; i < explanation.forms.size(); ++i) {
+        const Form& one = explanation.forms[i];
+        const FormFit fit = fitForm(folds_[f].gram[first + i], part(folds_[f].right, one), one.free);
+        if (i == 0 || fit.likelihood > best.likelihood) best = fit, at = i;
       }
       if (best.variance == 0) continue;
       for (std::size_t c = 0; c < cycles_.size(); ++c) {
         const Whitened& w = cycles_[c];
         if (w.fold != f || w.covered.empty()) continue;
-        Eigen::MatrixXd columns(w.test_net.rows(), static_cast<Index>(form->columns.size()));
-        for (std::size_t k = 0; k < form->columns.size(); ++k)
-          columns.col(static_cast<Index>(k)) = w.test_net.col(columnOf(*form, k));
+        const Eigen::MatrixXd columns = columnsOf(w.test_net, explanation.forms[at]);
         const Eigen::VectorXd predicted = columns * best.coefficients;
         score.nats[c] = predicted.dot(w.test_error) - 0.5 * predicted.squaredNorm();
         if (explanation.by_chance)
           score.nats[c] +=
-              natsOfCovariance(part(folds_[f].gram, *form), best.variance, columns, w.test_error - predicted);
+              natsOfCovariance(folds_[f].gram[first + at], best.variance, columns, w.test_error - predicted);
       }
     }
     for (std::size_t i = 0; i < explanation.forms.size(); ++i) {
       const Form& one = explanation.forms[i];
-      const FormFit fit = fitForm(part(all_.gram, one), part(all_.right, one), one.free);
+      const FormFit fit = fitForm(all_.gram[first + i], part(all_.right, one), one.free);
       if (i == 0 || fit.likelihood > score.fit.likelihood) score.fit = fit, score.form = i;
     }
     for (const double nats : score.nats) score.total += nats;
@@ -407,7 +438,7 @@ struct HeldOutScores::Drawn {
 };
 
 std::vector<HeldOutScores::Drawn> HeldOutScores::draw(Index draws, std::uint64_t seed) const {
-  const Index statics = all_.inverse.rows(), columns = all_.gram.rows();
+  const Index statics = all_.inverse.rows(), columns = all_.right.size();
   Drawn nothing{Eigen::MatrixXd::Zero(statics, draws), Eigen::MatrixXd::Zero(columns, draws),
                 Eigen::MatrixXd::Zero(columns, draws)};
   std::vector<Drawn> drawn(fold_number_, nothing);
@@ -427,12 +458,13 @@ std::vector<HeldOutScores::Drawn> HeldOutScores::draw(Index draws, std::uint64_t
 
 // What an explanation gains in the cycles of one fold, for each draw. `right`, `net`: products of the columns
 // with the noise of the other folds and with that of the fold itself.
-void HeldOutScores::addGains(const Fold& fold, const Explaining& explanation, const Eigen::MatrixXd& right,
+void HeldOutScores::addGains(const Fold& fold, std::size_t explanation, const Eigen::MatrixXd& right,
                              const Eigen::MatrixXd& net, std::vector<double>& totals) const {
   std::vector<double> likelihood(totals.size(), 0.0), gained(totals.size(), 0.0);
-  for (const Form& form : explanation.forms) {
-    const FormFitter fitter(part(fold.gram, form), form.free);
-    const Eigen::MatrixXd own = part(fold.test_gram, form);
+  for (std::size_t i = 0; i < explanations_[explanation].forms.size(); ++i) {
+    const Form& form = explanations_[explanation].forms[i];
+    const FormFitter fitter(fold.gram[first_form_[explanation] + i], form.free);
+    const Eigen::MatrixXd& own = fold.test_gram[first_form_[explanation] + i];
     for (std::size_t d = 0; d < totals.size(); ++d) {
       const auto at = static_cast<Index>(d);
       const FormFit fit = fitter.fit(part(Eigen::VectorXd(right.col(at)), form));
@@ -446,11 +478,11 @@ void HeldOutScores::addGains(const Fold& fold, const Explaining& explanation, co
 }
 
 // The largest marginal likelihood of the forms of an explanation, for each draw.
-std::vector<double> HeldOutScores::likelihoods(const Explaining& explanation,
-                                               const Eigen::MatrixXd& right) const {
+std::vector<double> HeldOutScores::likelihoods(std::size_t explanation, const Eigen::MatrixXd& right) const {
   std::vector<double> largest(static_cast<std::size_t>(right.cols()), 0.0);
-  for (const Form& form : explanation.forms) {
-    const FormFitter fitter(part(all_.gram, form), form.free);
+  for (std::size_t i = 0; i < explanations_[explanation].forms.size(); ++i) {
+    const Form& form = explanations_[explanation].forms[i];
+    const FormFitter fitter(all_.gram[first_form_[explanation] + i], form.free);
     for (std::size_t d = 0; d < largest.size(); ++d) {
       const Eigen::VectorXd own = right.col(static_cast<Index>(d));
       largest[d] = std::max(largest[d], fitter.fit(part(own, form)).likelihood);
@@ -474,12 +506,12 @@ NullScores HeldOutScores::nullScores(std::size_t draws, std::uint64_t seed, unsi
     const Eigen::MatrixXd right = all.columns - drawn[f].columns - fold.solved.transpose() * statics;
     const Eigen::MatrixXd net = drawn[f].test - fold.test_static * (fold.inverse * statics);
     matrix::forEachTaxel(explanations_.size(), threads, [&](std::size_t e) {
-      if (!explanations_[e].by_chance) addGains(fold, explanations_[e], right, net, null.of[e]);
+      if (!explanations_[e].by_chance) addGains(fold, e, right, net, null.of[e]);
     });
   }
   const Eigen::MatrixXd right = all.columns - all_.solved.transpose() * all.statics;
   matrix::forEachTaxel(explanations_.size(), threads, [&](std::size_t e) {
-    if (explanations_[e].by_chance) null.of[e] = likelihoods(explanations_[e], right);
+    if (explanations_[e].by_chance) null.of[e] = likelihoods(e, right);
   });
   null.largest.assign(draws, 0.0);
   for (std::size_t e = 0; e < explanations_.size(); ++e) {
@@ -493,11 +525,11 @@ NullScores HeldOutScores::nullScores(std::size_t draws, std::uint64_t seed, unsi
 }
 
 FormFit HeldOutScores::fitAll(const Form& form) const {
-  return fitForm(part(all_.gram, form), part(all_.right, form), form.free);
+  return fitForm(gramOf(form), part(all_.right, form), form.free);
 }
 
 PriorVariance HeldOutScores::varianceOf(const Form& form) const {
-  return FreeFitter(part(all_.gram, form)).variance(part(all_.right, form));
+  return FreeFitter(gramOf(form)).variance(part(all_.right, form));
 }
 
 double HeldOutScores::density(std::size_t cycle, double nats) const {
@@ -510,8 +542,7 @@ double HeldOutScores::density(std::size_t cycle, double nats) const {
 }
 
 double HeldOutScores::information(Index column) const {
-  const Index at = place_[static_cast<std::size_t>(column)];
-  return all_.gram(at, at);
+  return gramOf({{column}, {true}})(0, 0);
 }
 
 }  // namespace fsr::discrepancy

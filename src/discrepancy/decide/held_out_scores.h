@@ -77,13 +77,14 @@ class HeldOutScores {
   double information(Eigen::Index column) const;
 
  private:
+  using Grams = std::vector<Eigen::MatrixXd>;  // products of the columns of each form
   struct Fold {
     Eigen::MatrixXd solved;       // prior-regularised statics' inverse times their products with the columns
     Eigen::MatrixXd inverse;      // of the regularised statics
-    Eigen::MatrixXd gram;         // of the columns, statics eliminated [columns x columns]
+    Grams gram;                   // statics eliminated
     Eigen::VectorXd right;        // likewise, with the reading
-    Eigen::MatrixXd test_gram;    // of the columns in the fold's own cycles, statics subtracted
-    Eigen::MatrixXd test_static;  // products of those with the statics [columns x statics]
+    Grams test_gram;              // in the fold's own cycles, statics subtracted
+    Eigen::MatrixXd test_static;  // products of the columns there with the statics [columns x statics]
   };
   struct Whitened {
     Eigen::MatrixXd root;              // Cholesky factor of the noise
@@ -105,9 +106,9 @@ class HeldOutScores {
   struct Drawn;
   struct Products;
   std::vector<Drawn> draw(Eigen::Index draws, std::uint64_t seed) const;
-  void addGains(const Fold& fold, const Explaining& explanation, const Eigen::MatrixXd& right,
+  void addGains(const Fold& fold, std::size_t explanation, const Eigen::MatrixXd& right,
                 const Eigen::MatrixXd& net, std::vector<double>& totals) const;
-  std::vector<double> likelihoods(const Explaining& explanation, const Eigen::MatrixXd& right) const;
+  std::vector<double> likelihoods(std::size_t explanation, const Eigen::MatrixXd& right) const;
   void chooseColumns();
   void whiten(const CycleNoise& noise, const StaticModel& model);
   void assignFolds();
@@ -119,17 +120,23 @@ class HeldOutScores {
   Eigen::Index columnOf(const Form& form, std::size_t k) const {
     return place_[static_cast<std::size_t>(form.columns[k] + (form.bent_only ? design_.columns : 0))];
   }
-  Eigen::MatrixXd part(const Eigen::MatrixXd& gram, const Form& form) const;
+  Eigen::MatrixXd columnsOf(const Eigen::MatrixXd& all, const Form& form) const;
+  Eigen::MatrixXd gramOf(const Form& form) const;
+  void addGrams(const Eigen::MatrixXd& columns, Grams& sums) const;
+  Grams noGrams() const;
   Eigen::VectorXd part(const Eigen::VectorXd& right, const Form& form) const;
 
   const CycleDesign& design_;
   const StaticModel model_;
   const std::vector<Explaining>& explanations_;
+  std::vector<const Form*> forms_;       // of all explanations
+  std::vector<std::size_t> first_form_;  // among those, of each explanation
   std::vector<UsedColumn> used_;
   std::vector<Eigen::Index> place_;  // among those, of each column of the design; -1 = not used
   std::vector<Whitened> cycles_;
   std::vector<Fold> folds_;
-  Fold all_;  // without test
+  Fold all_;               // without test
+  Eigen::MatrixXd mixed_;  // products of the statics with the columns over all cycles
   std::vector<HeldOutScore> scores_;
   std::size_t fold_number_;
   double degrees_;
