@@ -19,6 +19,15 @@ constexpr double kLowest = -14, kHighest = 1, kGridStep = 0.5;
 constexpr double kFineStep = 0.02;       // likewise, for the interval of a prior variance
 constexpr double kWithin95 = 3.841 / 2;  // nats below the largest likelihood: chi-squared of one degree
 
+// The prior variances that are tried.
+const Eigen::ArrayXd& triedVariances() {
+  static const Eigen::ArrayXd tried = [] {
+    const auto number = static_cast<Index>(std::lround((kHighest - kLowest) / kGridStep)) + 1;
+    return Eigen::ArrayXd(Eigen::pow(10.0, Eigen::ArrayXd::LinSpaced(number, kLowest, kHighest)));
+  }();
+  return tried;
+}
+
 // Fits columns whose coefficients may have either sign.
 class FreeFitter {
  public:
@@ -26,6 +35,10 @@ class FreeFitter {
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(gram);
     values_ = solver.eigenvalues().cwiseMax(0.0);
     vectors_ = solver.eigenvectors();
+    const Eigen::ArrayXd& tried = triedVariances();
+    const Eigen::ArrayXXd grown = 1 + (tried.matrix() * values_.matrix().transpose()).array();
+    shrunk_ = (grown.inverse().colwise() * tried).matrix();
+    width_ = grown.log().rowwise().sum();
   }
 
   FormFit fit(const Eigen::VectorXd& right) const {
@@ -33,11 +46,12 @@ class FreeFitter {
     fit.coefficients.setZero(right.size());
     const Eigen::VectorXd turned = vectors_.transpose() * right;
     const Eigen::ArrayXd pull = turned.array().square();
-    for (double e = kLowest; e <= kHighest; e += kGridStep) {
-      const double variance = std::pow(10, e), likelihood = likelihoodAt(variance, pull);
-      if (likelihood > fit.likelihood) fit.likelihood = likelihood, fit.variance = variance;
-    }
-    if (fit.variance == 0) return fit;
+    Index best;
+    const double likelihood =
+        (0.5 * ((shrunk_ * pull.matrix()).array() - width_)).maxCoeff(&best);  // above that of nothing [nats]
+    if (likelihood <= fit.likelihood) return fit;
+    fit.likelihood = likelihood;
+    fit.variance = triedVariances()[best];
     fit.coefficients = vectors_ * (fit.variance / (1 + fit.variance * values_) * turned.array()).matrix();
     return fit;
   }
@@ -69,6 +83,8 @@ class FreeFitter {
 
   Eigen::ArrayXd values_;
   Eigen::MatrixXd vectors_;
+  Eigen::MatrixXd shrunk_;  // weight of each squared pull under each tried variance
+  Eigen::ArrayXd width_;    // logarithm of the determinant under each tried variance
 };
 
 Eigen::MatrixXd among(const Eigen::MatrixXd& gram, const std::vector<Index>& chosen) {
@@ -387,10 +403,10 @@ Eigen::MatrixXd HeldOutScores::gramOf(const Form& form) const {
   return gram;
 }
 
-Eigen::VectorXd HeldOutScores::part(const Eigen::VectorXd& right, const Form& form) const {
-  Eigen::VectorXd result(static_cast<Index>(form.columns.size()));
-  for (Index a = 0; a < result.size(); ++a) result[a] = right[columnOf(form, static_cast<std::size_t>(a))];
-  return result;
+std::vector<Index> HeldOutScores::placesOf(const Form& form) const {
+  std::vector<Index> places;
+  for (std::size_t k = 0; k < form.columns.size(); ++k) places.push_back(columnOf(form, k));
+  return places;
 }
 
 void HeldOutScores::score() {
@@ -404,7 +420,8 @@ void HeldOutScores::score() {
       std::size_t at = 0;
       for (std::size_t i = 0; i < explanation.forms.size(); ++i) {
         const Form& one = explanation.forms[i];
-        const FormFit fit = fitForm(folds_[f].gram[first + i], part(folds_[f].right, one), one.free);
+        const FormFit fit =
+            fitForm(folds_[f].gram[first + i], rowsOf(folds_[f].right, placesOf(one)), one.free);
         if (i == 0 || fit.likelihood > best.likelihood) best = fit, at = i;
       }
       if (best.variance == 0) continue;
@@ -421,7 +438,7 @@ void HeldOutScores::score() {
     }
     for (std::size_t i = 0; i < explanation.forms.size(); ++i) {
       const Form& one = explanation.forms[i];
-      const FormFit fit = fitForm(all_.gram[first + i], part(all_.right, one), one.free);
+      const FormFit fit = fitForm(all_.gram[first + i], rowsOf(all_.right, placesOf(one)), one.free);
       if (i == 0 || fit.likelihood > score.fit.likelihood) score.fit = fit, score.form = i;
     }
     for (const double nats : score.nats) score.total += nats;
@@ -465,13 +482,13 @@ void HeldOutScores::addGains(const Fold& fold, std::size_t explanation, const Ei
     const Form& form = explanations_[explanation].forms[i];
     const FormFitter fitter(fold.gram[first_form_[explanation] + i], form.free);
     const Eigen::MatrixXd& own = fold.test_gram[first_form_[explanation] + i];
+    const Eigen::MatrixXd own_right = rowsOf(right, placesOf(form)), own_net = rowsOf(net, placesOf(form));
     for (std::size_t d = 0; d < totals.size(); ++d) {
       const auto at = static_cast<Index>(d);
-      const FormFit fit = fitter.fit(part(Eigen::VectorXd(right.col(at)), form));
+      const FormFit fit = fitter.fit(own_right.col(at));
       if (fit.likelihood <= likelihood[d]) continue;
       likelihood[d] = fit.likelihood;
-      const Eigen::VectorXd pull = part(Eigen::VectorXd(net.col(at)), form);
-      gained[d] = fit.coefficients.dot(pull) - 0.5 * fit.coefficients.dot(own * fit.coefficients);
+      gained[d] = fit.coefficients.dot(own_net.col(at)) - 0.5 * fit.coefficients.dot(own * fit.coefficients);
     }
   }
   for (std::size_t d = 0; d < totals.size(); ++d) totals[d] += gained[d];
@@ -483,10 +500,9 @@ std::vector<double> HeldOutScores::likelihoods(std::size_t explanation, const Ei
   for (std::size_t i = 0; i < explanations_[explanation].forms.size(); ++i) {
     const Form& form = explanations_[explanation].forms[i];
     const FormFitter fitter(all_.gram[first_form_[explanation] + i], form.free);
-    for (std::size_t d = 0; d < largest.size(); ++d) {
-      const Eigen::VectorXd own = right.col(static_cast<Index>(d));
-      largest[d] = std::max(largest[d], fitter.fit(part(own, form)).likelihood);
-    }
+    const Eigen::MatrixXd own_right = rowsOf(right, placesOf(form));
+    for (std::size_t d = 0; d < largest.size(); ++d)
+      largest[d] = std::max(largest[d], fitter.fit(own_right.col(static_cast<Index>(d))).likelihood);
   }
   return largest;
 }
@@ -525,11 +541,11 @@ NullScores HeldOutScores::nullScores(std::size_t draws, std::uint64_t seed, unsi
 }
 
 FormFit HeldOutScores::fitAll(const Form& form) const {
-  return fitForm(gramOf(form), part(all_.right, form), form.free);
+  return fitForm(gramOf(form), rowsOf(all_.right, placesOf(form)), form.free);
 }
 
 PriorVariance HeldOutScores::varianceOf(const Form& form) const {
-  return FreeFitter(gramOf(form)).variance(part(all_.right, form));
+  return FreeFitter(gramOf(form)).variance(rowsOf(all_.right, placesOf(form)));
 }
 
 double HeldOutScores::density(std::size_t cycle, double nats) const {

@@ -124,7 +124,7 @@ class HeldOutScores {
   Eigen::MatrixXd gramOf(const Form& form) const;
   void addGrams(const Eigen::MatrixXd& columns, Grams& sums) const;
   Grams noGrams() const;
-  Eigen::VectorXd part(const Eigen::VectorXd& right, const Form& form) const;
+  std::vector<Eigen::Index> placesOf(const Form& form) const;
 
   const CycleDesign& design_;
   const StaticModel model_;
