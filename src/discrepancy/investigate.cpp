@@ -450,8 +450,7 @@ void Investigation::prove() {
   const auto& found = report_.effects;
   const bool by_chance = std::any_of(found.begin(), found.end(), [&](const FoundEffect& effect) {
     const simulation::EnabledEffect* added = report_.added.effect(effect.id);
-    return simulation::isByChance(measured_.info(effect.id),
-                                  added ? added->values : simulation::EffectValues());
+    return added && simulation::isByChance(measured_.info(effect.id), *added);
   });
   tell("gap", 0.97);
   measureDrivenGap(fit, hold_out, report_.base, report_.added, fit_->slope(),

@@ -766,6 +766,7 @@ bool FaultSearch::keep(FaultKind kind, double p, const Members& members) {
   fault.p = p;
   if (fault.isLine()) fault.line = lineOf(sheet_.layout, kind, members.begin()->first);
   double hit = 0, all = 0, lost = 0, lost_of = 0, square = 0;
+  std::vector<std::pair<double, double>> losses;  // of each spell: what is lost, and of how much
   std::vector<std::vector<float>> squares = faults_.squares;
   squares.resize(courses_.size());
   for (std::size_t v = 0; v < courses_.size(); ++v) {
@@ -775,6 +776,7 @@ bool FaultSearch::keep(FaultKind kind, double p, const Members& members) {
     bool before = false;
     for (std::size_t i = 0; i < courses_[v].scans(); ++i) {
       bool now = false;
+      double loss = 0, loss_of = 0;
       auto course = courses.begin();
       for (const auto& [taxel, spells] : members) {
         TaxelCourse& own = *course++;
@@ -783,14 +785,23 @@ bool FaultSearch::keep(FaultKind kind, double p, const Members& members) {
         const double deviation = own.deviates(i);
         square += deviation * deviation;
         squares[v][i] += static_cast<float>(std::pow(deviation * courses_[v].unit[taxel], 2));
-        lost -= deviation;
-        lost_of += courses_[v].expected(taxel, i);
+        loss -= deviation;
+        loss_of += courses_[v].expected(taxel, i);
       }
+      lost += loss;
+      lost_of += loss_of;
       all += 1;
       hit += now;
       const double time = sheet_.stays[v].time(i);
-      if (now && !before) fault.times.emplace_back(time, time);
-      if (now) fault.times.back().second = time;
+      if (now && !before) {
+        fault.times.emplace_back(time, time);
+        losses.emplace_back(0, 0);
+      }
+      if (now) {
+        fault.times.back().second = time;
+        losses.back().first += loss;
+        losses.back().second += loss_of;
+      }
       before = now;
     }
   }
@@ -798,6 +809,7 @@ bool FaultSearch::keep(FaultKind kind, double p, const Members& members) {
   for (const auto& [from, to] : fault.times) fault.longest = std::max(fault.longest, to - from);
   fault.share = hit / std::max(1.0, all);
   fault.depth = lost_of > 0 ? lost / lost_of : 0;
+  for (const auto& [loss, of] : losses) fault.depths.push_back(of > 0 ? loss / of : 0);
   const double error = std::sqrt(square / (std::max(1.0, all) * double(members.size())));
   for (const auto& [taxel, spells] : members) fault.taxels.push_back(taxel);
   if (hit == 0 || error < options_.least_error) return false;

@@ -49,6 +49,7 @@ struct Fault {
   double depth = 0;                              ///< mean relative loss of the reading
   double longest = 0;                            ///< longest spell [s]
   std::vector<std::pair<double, double>> times;  ///< start and end of each spell, since the first scan [s]
+  std::vector<double> depths;                    ///< mean relative loss in each of those
   std::vector<TaxelSpell> spells;                ///< of each of its taxels, unless a line fails
   double fades_over = 0;  ///< of taxels that fade: from the start until nothing is left [s]
   double p = 1;           ///< of its test, corrected for all taxels or lines

@@ -116,15 +116,6 @@ std::vector<EffectParameter> walks(const EffectInfo& info) {
   return result;
 }
 
-bool isByChance(const EffectInfo& info, const EffectValues& values) {
-  if (info.by_chance) return true;
-  const std::vector<EffectParameter> steps = walks(info);
-  return std::any_of(steps.begin(), steps.end(), [&](const EffectParameter& step) {
-    const auto value = values.find(step.name);
-    return value != values.end() && value->second != step.neutral;
-  });
-}
-
 bool dependsOn(const EffectInfo& info, Covariate covariate) {
   return std::count(info.depends_on.begin(), info.depends_on.end(), covariate) > 0;
 }

@@ -99,7 +99,9 @@ std::string text(const EnabledEffect& effect, const EffectInfo& info, const Valu
               std::to_string(spell.taxel) + ", " + settings::numberText(spell.from) + ", " +
               settings::numberText(spell.to) + ", " + settings::numberText(spell.reading);
   }
-  if (!effect.spells.empty()) result += "]  # taxel, from, to [s], reading [counts]\n";
+  const bool line = info.level == EffectLevel::kRow || info.level == EffectLevel::kColumn;
+  if (!effect.spells.empty())
+    result += line ? "]  # line, from, to [s], share lost\n" : "]  # taxel, from, to [s], reading [counts]\n";
   return result;
 }
 

@@ -88,18 +88,23 @@ EffectValues readValues(const settings::Settings& settings, const EffectInfo& in
 std::vector<FaultSpell> readSpells(const settings::Settings& settings, const EffectInfo& info,
                                    matrix::MatrixSize size) {
   const std::vector<double> numbers = settings.numbers("spells", {-1, kForever, ""});
-  if (info.level != EffectLevel::kTaxel || info.kind != EffectKind::kDetector)
-    throw settings.error("spells", "only dead_taxel and stuck_taxel have spells");
+  const bool line = info.level == EffectLevel::kRow || info.level == EffectLevel::kColumn;
+  if (info.kind != EffectKind::kDetector || !(line || info.level == EffectLevel::kTaxel))
+    throw settings.error("spells", "only dead_taxel, stuck_taxel, row_fault and column_fault have spells");
+  const std::size_t places = info.level == EffectLevel::kRow      ? size.rows
+                             : info.level == EffectLevel::kColumn ? size.columns
+                                                                  : size.taxels();
   std::vector<FaultSpell> spells;
   for (std::size_t i = 0; i + 3 < numbers.size(); i += 4)
     spells.push_back({static_cast<std::size_t>(numbers[i]), numbers[i + 1], numbers[i + 2], numbers[i + 3]});
   const bool sound =
       numbers.size() % 4 == 0 && std::all_of(spells.begin(), spells.end(), [&](const FaultSpell& s) {
-        return s.taxel < size.taxels() && s.from <= s.to;
+        return s.taxel < places && s.from <= s.to && (!line || (s.reading >= 0 && s.reading <= 1));
       });
   if (!sound)
-    throw settings.error("spells",
-                         "must be four numbers for each spell: taxel, from, to [s], reading [counts]");
+    throw settings.error("spells", std::string("must be four numbers for each spell: ") +
+                                       (line ? "line, from, to [s], share of the conductance that is lost"
+                                             : "taxel, from, to [s], reading [counts]"));
   return spells;
 }
 

@@ -154,6 +154,7 @@ TEST(Investigate, FindsFaultsByTestsOfTheirOwn) {
   ASSERT_EQ(row.verdict, Verdict::kNamed) << row.sentence;
   EXPECT_EQ(row.effects.at(0).id, "row_fault");
   EXPECT_EQ(row.where.taxels, (std::vector<std::size_t>{4, 5, 6, 7}));
+  EXPECT_GT(row.gap.closed, 0.9);
 }
 
 // A few taxels that stick once and follow a little of the load are no drift of the sheet.

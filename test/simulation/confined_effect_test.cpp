@@ -53,7 +53,8 @@ TEST(ConfinedEffect, EverywhereIsAsIfNothingWereSaid) {
 TEST(ConfinedEffect, SurvivesSavingAndLoading) {
   const SimulationSettings written = settings(
       "  hysteresis: {only_taxels: [1, 5], only_surfaces: [cylinder_5cm, \"a, b\"]}\n"
-      "  stuck_taxel: {spells: [1, 2.5, 3, -1, 5, 7, 1e9, 400]}\n");
+      "  stuck_taxel: {spells: [1, 2.5, 3, -1, 5, 7, 1e9, 400]}\n"
+      "  row_fault: {spells: [1, 2, 3, 0.5]}\n");
   const SimulationSettings read =
       readSimulation(settings::Settings::fromText(simulationText(written), "written.yaml"));
   EXPECT_EQ(read.effect("hysteresis")->only_taxels, (std::vector<std::size_t>{1, 5}));
@@ -64,13 +65,16 @@ TEST(ConfinedEffect, SurvivesSavingAndLoading) {
             std::make_tuple(1u, 2.5, 3.0, -1.0));
   EXPECT_EQ(std::make_tuple(spells[1].taxel, spells[1].to, spells[1].reading),
             std::make_tuple(5u, kForever, 400.0));
+  ASSERT_EQ(read.effect("row_fault")->spells.size(), 1u);
+  EXPECT_EQ(read.effect("row_fault")->spells[0].reading, 0.5);
 }
 
 TEST(ConfinedEffect, RefusesTaxelsThatAreNotThere) {
   EXPECT_THROW(settings("  creep: {only_taxels: [6]}\n"), settings::InputError);
   EXPECT_THROW(settings("  creep: {only_surfaces: flat}\n"), settings::InputError);
   for (const char* spells : {"stuck_taxel: {spells: [6, 0, 1, 0]}", "dead_taxel: {spells: [1, 2, 1, 0]}",
-                             "dead_taxel: {spells: [1, 0, 1]}", "creep: {spells: [1, 0, 1, 0]}"})
+                             "dead_taxel: {spells: [1, 0, 1]}", "creep: {spells: [1, 0, 1, 0]}",
+                             "row_fault: {spells: [2, 0, 1, 0.5]}", "column_fault: {spells: [0, 0, 1, 2]}"})
     EXPECT_THROW(settings(std::string("  ") + spells + "\n"), settings::InputError) << spells;
 }
 

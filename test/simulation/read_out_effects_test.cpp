@@ -314,6 +314,18 @@ TEST(Faults, HaveSpellsOfSingleTaxels) {
   EXPECT_EQ(scanAt(stuck, 62e3, 4)[1], 6000);
 }
 
+// Columns 0 and 2 fail one after the other.
+TEST(Faults, HaveSpellsOfLines) {
+  SensorChain chain(straightRig("  column_fault: {spells: [0, 1, 2, 0.25, 2, 2, 3, 1]}\n", 1, 4));
+  for (const auto& [time, first, third] : std::vector<std::array<int, 3>>{
+           {0, 6000, 6000}, {1, 4500, 6000}, {2, 4500, 0}, {3, 6000, 0}, {4, 6000, 6000}}) {
+    const auto counts = scanAt(chain, 62e3, time);
+    EXPECT_EQ(counts[0], first) << time;
+    EXPECT_EQ(counts[1], 6000) << time;
+    EXPECT_EQ(counts[2], third) << time;
+  }
+}
+
 TEST(Faults, OfTaxelsThatTheMatrixDoesNotHaveAreRefused) {
   for (const char* effect : {"dead_taxel: {first: 4}", "dead_taxel: {taxels: 5}",
                              "stuck_taxel: {taxels: 1.5}", "row_fault: {line: 1}"}) {

@@ -210,8 +210,6 @@ const EffectParameter& parameter(const EffectInfo& info, const std::string& name
 std::vector<EffectParameter> strengths(const EffectInfo& info);
 /// The parameters that are the steps of a random walk.
 std::vector<EffectParameter> walks(const EffectInfo& info);
-/// Whether the course of the effect is random with these values: always, or because it walks.
-bool isByChance(const EffectInfo& info, const EffectValues& values);
 bool dependsOn(const EffectInfo& info, Covariate covariate);
 
 /// Names as files and reports spell them, e.g. "time_since_reversal".

@@ -45,11 +45,13 @@ void validate(const SimulatedBoard& board, const std::string& origin);
 
 constexpr double kForever = 1e9;  ///< an end that no recording reaches [s]
 
-/// A time in which a taxel fails.
+/// A time in which a taxel or a line fails.
 struct FaultSpell {
-  std::size_t taxel = 0;    ///< row-major
+  std::size_t taxel = 0;    ///< row-major; of row_fault and column_fault: index of the line
   double from = 0, to = 0;  ///< rig time [s]
-  double reading = 0;       ///< of a stuck taxel [counts]; -1 = what it was when the fault began
+  /// Of a stuck taxel [counts]; -1 = what it was when the fault began. Of a line: share of the conductance
+  /// that is lost.
+  double reading = 0;
 };
 
 /// An effect that is enabled, with all its parameters.
@@ -58,7 +60,7 @@ struct EnabledEffect {
   EffectValues values;
   std::vector<std::size_t> only_taxels{};    ///< on which it acts, row-major; empty = all
   std::vector<std::string> only_surfaces{};  ///< by name; empty = all
-  std::vector<FaultSpell> spells{};          ///< of dead_taxel and stuck_taxel, in place of their parameters
+  std::vector<FaultSpell> spells{};          ///< of faults, in place of their parameters
 };
 
 /// One mount of the matrix and the program of the chamber during it. It becomes one bag.

@@ -376,6 +376,9 @@ simulation::EnabledEffect asEffect(const health::Fault& fault) {
   for (const health::TaxelSpell& spell : fault.spells)
     effect.spells.push_back(
         {spell.taxel, spell.from, std::min(spell.to, simulation::kForever), spell.reading});
+  for (std::size_t k = 0; k < fault.times.size() && fault.isLine(); ++k)
+    effect.spells.push_back(
+        {fault.line, fault.times[k].first, fault.times[k].second, std::clamp(fault.depths[k], 0.0, 1.0)});
   return effect;
 }
 

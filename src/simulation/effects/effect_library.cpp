@@ -93,7 +93,7 @@ SimulationSettings without(SimulationSettings settings, Unwanted unwanted) {
   auto& effects = settings.effects;
   effects.erase(std::remove_if(effects.begin(), effects.end(),
                                [&](const EnabledEffect& effect) {
-                                 return unwanted(libraryOf(settings).info(effect.id));
+                                 return unwanted(libraryOf(settings).info(effect.id), effect);
                                }),
                 effects.end());
   return settings;
@@ -101,13 +101,24 @@ SimulationSettings without(SimulationSettings settings, Unwanted unwanted) {
 
 }  // namespace
 
+bool isByChance(const EffectInfo& info, const EnabledEffect& effect) {
+  if (info.by_chance && effect.spells.empty()) return true;
+  const std::vector<EffectParameter> steps = walks(info);
+  return std::any_of(steps.begin(), steps.end(), [&](const EffectParameter& step) {
+    const auto value = effect.values.find(step.name);
+    return value != effect.values.end() && value->second != step.neutral;
+  });
+}
+
 SimulationSettings withoutNoise(SimulationSettings settings) {
-  return without(std::move(settings), [](const EffectInfo& info) { return info.stochastic; });
+  return without(std::move(settings),
+                 [](const EffectInfo& info, const EnabledEffect&) { return info.stochastic; });
 }
 
 SimulationSettings withoutChance(SimulationSettings settings) {
-  settings =
-      without(std::move(settings), [](const EffectInfo& info) { return info.stochastic || info.by_chance; });
+  settings = without(std::move(settings), [](const EffectInfo& info, const EnabledEffect& effect) {
+    return info.stochastic || (info.by_chance && effect.spells.empty());
+  });
   for (EnabledEffect& effect : settings.effects) {
     for (const EffectParameter& step : walks(libraryOf(settings).info(effect.id)))
       effect.values[step.name] = step.neutral;

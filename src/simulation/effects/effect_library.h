@@ -176,8 +176,12 @@ const EnabledEffect& converterOf(const SimulationSettings& settings);
 /// The settings without the effects that draw new random numbers at each scan.
 SimulationSettings withoutNoise(SimulationSettings settings);
 
-/// The same without those whose course in a recording no simulation repeats (EffectInfo::by_chance), and
-/// without the random walks of the others.
+/// Whether the course of the effect is random with these values: always, unless its spells are known, or
+/// because it walks.
+bool isByChance(const EffectInfo& info, const EnabledEffect& effect);
+
+/// The settings without noise, without effects whose course in a recording no simulation repeats, and without
+/// the random walks of the others.
 SimulationSettings withoutChance(SimulationSettings settings);
 
 }  // namespace fsr::simulation

@@ -243,19 +243,27 @@ class LineFault : public Effect {
  public:
   LineFault(const EffectValues& values, const EffectContext& context)
       : size_(context.layout.size),
-        line_(row ? "row_fault" : "column_fault", row ? size_.rows : size_.columns, values, context) {}
+        line_(row ? "row_fault" : "column_fault", row ? size_.rows : size_.columns, values, context),
+        spells_(context.spells) {}
 
   void apply(const RigSample& sample, TaxelSignals& signals) override {
-    const double contact = line_.contact(sample.time);
+    if (spells_.empty()) weaken(line_.line(), line_.contact(sample.time), signals);
+    for (const FaultSpell& spell : spells_) {
+      if (isIn(spell, sample.time)) weaken(spell.taxel, 1 - spell.reading, signals);
+    }
+  }
+
+ private:
+  void weaken(std::size_t line, double contact, TaxelSignals& signals) const {
     const std::size_t columns = size_.columns;
-    const std::size_t first = row ? line_.line() * columns : line_.line();
+    const std::size_t first = row ? line * columns : line;
     const std::size_t taxels = row ? columns : size_.rows;
     for (std::size_t k = 0; k < taxels; ++k) signals.conductance[first + k * (row ? 1 : columns)] *= contact;
   }
 
- private:
   matrix::MatrixSize size_;
   LooseLine line_;
+  std::vector<FaultSpell> spells_;
 };
 
 }  // namespace
