@@ -59,7 +59,12 @@ class Investigation {
   void lookAtStaticCurves();
   void lookAtTaxels();
   void abstainWithoutProof();
+  void dropDetections();
+  void abstain(const std::string& outcome);
+  bool pays() const;
   void put();
+  void report();
+  void withdraw(const DiscrepancyReport& report, const std::vector<Detection>& detections);
   void startAgain();
   void putDetections();
   void tellScatter();
@@ -90,8 +95,9 @@ class Investigation {
   std::vector<Detection> detections_, later_;
   simulation::SimulationSettings current_;  // includes all effects that were subtracted
   bool quiet_ = false;
-  bool by_terms_ = false;  // the gap is that of fitted terms, not of the effects in the simulation
-  Trace left_;             // part of the common trace's residual that the effects explain
+  bool by_terms_ = false;   // the gap is that of fitted terms, not of the effects in the simulation
+  bool by_chance_ = false;  // a part of what was found is random
+  Trace left_;              // part of the common trace's residual that the effects explain
   DiscrepancyReport report_;
 };
 
@@ -270,6 +276,12 @@ void Investigation::lookAtTaxels() {
 void Investigation::abstainWithoutProof() {
   if (HoldOutView(measured_, FitView(measured_)).scans() > 0) return;
   if (decision_.credible.empty() && detections_.empty()) return;
+  dropDetections();
+  abstain("required_data_missing");
+}
+
+// Keeps where detections show and what they depend on, but not their names.
+void Investigation::dropDetections() {
   for (const Detection& detection : detections_) {
     report_.where = detection.where;
     for (const std::string& covariate : detection.depends_on) {
@@ -279,13 +291,25 @@ void Investigation::abstainWithoutProof() {
   }
   detections_.clear();
   decision_.course.reset();
+}
+
+// Gives no name to what the common trace shows.
+void Investigation::abstain(const std::string& outcome) {
   decision_.verdict = Verdict::kUnknown;
   decision_.credible.clear();
   decision_.rivals.clear();
   decision_.refined = {};
   for (CandidateScore& candidate : decision_.candidates) {
-    if (candidate.outcome == "credible") candidate.outcome = "required_data_missing";
+    if (candidate.outcome == "credible") candidate.outcome = outcome;
   }
+}
+
+// Whether the simulation with what is named is nearer to the hold-out cycles than that without it. What is
+// random is not repeated as it was recorded, so it cannot be; a fault need not show in these cycles.
+bool Investigation::pays() const {
+  if (report_.effects.empty() || by_chance_ || report_.hold_out.empty()) return true;
+  const Gap& gap = report_.gap;
+  return decision_.credible.empty() ? gap.after <= gap.before : gap.after < gap.before;
 }
 
 // Writes the decision on the common trace into the report.
@@ -448,20 +472,16 @@ void Investigation::prove() {
     report_.added = withTaxelCurves(fit, report_.added, "simulation_curves.csv");
   }
   const auto& found = report_.effects;
-  const bool by_chance = std::any_of(found.begin(), found.end(), [&](const FoundEffect& effect) {
+  by_chance_ = std::any_of(found.begin(), found.end(), [&](const FoundEffect& effect) {
     const simulation::EnabledEffect* added = report_.added.effect(effect.id);
     return added && simulation::isByChance(measured_.info(effect.id), *added);
   });
   tell("gap", 0.97);
   measureDrivenGap(fit, hold_out, report_.base, report_.added, fit_->slope(),
-                   !report_.effects.empty() && !by_chance, problem_.options.seed, report_.gap);
+                   !report_.effects.empty() && !by_chance_, problem_.options.seed, report_.gap);
   report_.hold_out = hold_out.spans();
-  if (!by_chance && report_.gap.after > report_.gap.before)
-    report_.limitations.push_back(
-        "With the effects that were found, the written simulation is farther from the recordings than "
-        "without them.");
   auto& missing = report_.gap.missing;
-  if (by_chance)
+  if (by_chance_)
     missing.push_back(
         "A part of what was found is random, so no simulation repeats it as it was recorded. After it was "
         "added, the gap may be larger than before.");
@@ -559,6 +579,42 @@ void Investigation::plan() {
   report_.next_experiment = nextExperiment(onItsSurfaces(report_.base, measured_), contest);
 }
 
+// Writes the findings and their gap into the report.
+void Investigation::report() {
+  put();
+  if (problem_.options.repeat) {
+    repeat();
+    detections_.insert(detections_.begin(), later_.begin(), later_.end());
+    startAgain();
+  }
+  putDetections();
+  show();
+  tellOfOthers(problem_, measured_, *candidates_, decision_, report_);
+  listDetections();
+  listDependences();
+  tell("curves", 0.92);
+  prove();
+}
+
+// Reports again without the name, from the report and the detections of before.
+void Investigation::withdraw(const DiscrepancyReport& report, const std::vector<Detection>& detections) {
+  const std::string best = listText(report_.credible_set.front(), " with ");
+  report_ = report;
+  report_.limitations.push_back("Best guess: " + best +
+                                ". It is no name, because the simulation with it is farther from the "
+                                "hold-out cycles than without it.");
+  detections_ = detections;
+  later_.clear();
+  quiet_ = false;
+  if (decision_.credible.empty()) {
+    dropDetections();
+  } else {
+    decision_.explained = decision_.refined.trace;
+  }
+  abstain("does_not_pay");
+  this->report();
+}
+
 DiscrepancyReport Investigation::run() {
   report_.seed = problem_.options.seed;
   report_.version = FSR_VERSION;
@@ -577,19 +633,10 @@ DiscrepancyReport Investigation::run() {
   lookAtStaticCurves();
   lookAtTaxels();
   abstainWithoutProof();
-  put();
-  if (problem_.options.repeat) {
-    repeat();
-    detections_.insert(detections_.begin(), later_.begin(), later_.end());
-    startAgain();
-  }
-  putDetections();
-  show();
-  tellOfOthers(problem_, measured_, *candidates_, decision_, report_);
-  listDetections();
-  listDependences();
-  tell("curves", 0.92);
-  prove();
+  const DiscrepancyReport before = report_;
+  const std::vector<Detection> detections = detections_;
+  report();
+  if (!pays()) withdraw(before, detections);
   plan();
   if (!decision_.credible.empty() && !by_terms_) {
     report_.in_use = costsInUse(measured_, report_.base, report_.added,

@@ -255,8 +255,41 @@ TEST(Investigate, RecommendsAnExperimentThatSettlesIt) {
   EXPECT_EQ(after.effects.at(0).id, "hysteresis");
 }
 
+// In the hold-out cycles the loop is the other way round.
+TEST(Investigate, AnEffectThatMakesTheGapLargerIsNoName) {
+  DiscrepancyProblem problem = planted(kTwoSpeeds, "  hysteresis: {loop_width: 0.05}\n");
+  const DiscrepancyReport named = answerTo(problem);
+  ASSERT_EQ(named.verdict, Verdict::kNamed) << named.sentence;
+  const DiscrepancyProblem without = planted(kTwoSpeeds, "");
+  for (fsr::dataset::Recording& recording : problem.recordings) {
+    const auto index = static_cast<std::size_t>(&recording - problem.recordings.data());
+    for (const fsr::discrepancy::HoldOutCycles& held : named.hold_out) {
+      if (held.file != recording.name) continue;
+      for (const auto& [from, to] : held.cycles) {
+        for (std::size_t i = 0; i < recording.scans(); ++i) {
+          const std::int64_t stamp = recording.start_ns + std::llround(1e9 * recording.time[i]);
+          if (stamp < from || stamp > to) continue;
+          for (std::size_t t = 0; t < 12; ++t) {
+            std::uint16_t& count = recording.counts[i * 12 + t];
+            count = static_cast<std::uint16_t>(2 * without.recordings[index].counts[i * 12 + t] - count);
+          }
+        }
+      }
+    }
+  }
+  const DiscrepancyReport report = investigate(problem);
+  EXPECT_EQ(report.verdict, Verdict::kUnknown) << report.sentence;
+  EXPECT_TRUE(report.credible_set.empty());
+  EXPECT_TRUE(report.effects.empty());
+  EXPECT_EQ(report.gap.after, report.gap.before);
+  EXPECT_EQ(report.depends_on, named.depends_on);
+  const auto told = [](const std::string& text) { return text.find("hysteresis") != std::string::npos; };
+  EXPECT_TRUE(std::any_of(report.limitations.begin(), report.limitations.end(), told)) << "the best guess";
+}
+
 TEST(Investigate, IsTheSameOnThreeThreads) {
-  DiscrepancyProblem problem = planted(fsr::discrepancy::planted::kOneSurface, "  hysteresis: {loop_width: 0.05}\n");
+  DiscrepancyProblem problem =
+      planted(fsr::discrepancy::planted::kOneSurface, "  hysteresis: {loop_width: 0.05}\n");
   const DiscrepancyReport on_one = answerTo(problem);
   ASSERT_NE(on_one.verdict, Verdict::kNone) << "contenders are fitted";
   problem.options.threads = 3;

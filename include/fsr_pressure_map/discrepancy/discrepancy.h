@@ -211,7 +211,7 @@ struct GapInUse {
 struct CandidateScore {
   std::vector<std::string> ids;  ///< one effect, a pair, or the name of generic terms
   bool generic = false;
-  std::string outcome;  ///< named, credible, refused, required_data_missing
+  std::string outcome;  ///< named, credible, refused, required_data_missing, does_not_pay
   double nats = 0;      ///< added to the logarithm of the predictive density of cycles it was not fitted to
   double p = 1;         ///< probability of such a score if nothing were missing, corrected for the search
   double z = 0;         ///< mean of the nats by cycle, in standard errors; 0 where it was far behind the best
