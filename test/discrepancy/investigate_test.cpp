@@ -132,7 +132,16 @@ TEST(Investigate, NamesCreepAndALeakApart) {
   EXPECT_EQ(leak.credible_set.at(0), std::vector<std::string>{"seal_leak"});
 }
 
-TEST(Investigate, FindsFaultsByTestsOfTheirOwn) {
+TEST(Investigate, FindsARowThatFails) {
+  const DiscrepancyReport row =
+      answerTo(planted(kTwoSpeeds, "  row_fault: {share: 0.04, line: 1, burst: 3, depth: 0.7}\n"));
+  ASSERT_EQ(row.verdict, Verdict::kNamed) << row.sentence;
+  EXPECT_EQ(row.effects.at(0).id, "row_fault");
+  EXPECT_EQ(row.where.taxels, (std::vector<std::size_t>{4, 5, 6, 7}));
+  EXPECT_GT(row.gap.closed, 0.9) << "with the spells of this row";
+}
+
+TEST(Investigate, NamesTaxelsThatAreDeadOrStuck) {
   const DiscrepancyReport dead =
       answerTo(planted(kTwoSpeeds, "  dead_taxel: {taxels: 1, first: 5, start: 1200}\n"));
   ASSERT_EQ(dead.verdict, Verdict::kNamed) << dead.sentence;
@@ -149,12 +158,6 @@ TEST(Investigate, FindsFaultsByTestsOfTheirOwn) {
       answerTo(planted(kTwoSpeeds, "  stuck_taxel: {spells: [2, 1200, 1e9, -1, 9, 1500, 1e9, -1]}\n"));
   EXPECT_EQ(two.where.taxels, (std::vector<std::size_t>{2, 9}));
   for (const DiscrepancyReport* fault : {&dead, &stuck, &two}) EXPECT_GT(fault->gap.closed, 0.9);
-  const DiscrepancyReport row =
-      answerTo(planted(kTwoSpeeds, "  row_fault: {share: 0.04, line: 1, burst: 3, depth: 0.7}\n"));
-  ASSERT_EQ(row.verdict, Verdict::kNamed) << row.sentence;
-  EXPECT_EQ(row.effects.at(0).id, "row_fault");
-  EXPECT_EQ(row.where.taxels, (std::vector<std::size_t>{4, 5, 6, 7}));
-  EXPECT_GT(row.gap.closed, 0.9);
 }
 
 // A few taxels that stick once and follow a little of the load are no drift of the sheet.
@@ -256,7 +259,7 @@ TEST(Investigate, RecommendsAnExperimentThatSettlesIt) {
 }
 
 // In the hold-out cycles the loop is the other way round.
-TEST(Investigate, AnEffectThatMakesTheGapLargerIsNoName) {
+TEST(Investigate, NamesNoEffectThatMakesTheGapLarger) {
   DiscrepancyProblem problem = planted(kTwoSpeeds, "  hysteresis: {loop_width: 0.05}\n");
   const DiscrepancyReport named = answerTo(problem);
   ASSERT_EQ(named.verdict, Verdict::kNamed) << named.sentence;
