@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "dataset/count_readers.h"
 #include "dataset/sections.h"
@@ -75,6 +76,19 @@ std::size_t halfSpan(const std::vector<double>& time, const std::vector<double>&
       std::max(1.0, std::round(std::min(kLongestSpan, kSpanOfCycle * cycle) / 2 / step)));
 }
 
+// What a sheet without any lag reads at each pressure: the reading with the same rank. A curved
+// characteristic moves the steepest part of a ramp, which would look like a lag.
+std::vector<double> asReadings(const std::vector<double>& pressure, std::vector<double> reading) {
+  std::vector<std::size_t> order(pressure.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return pressure[a] < pressure[b]; });
+  std::sort(reading.begin(), reading.end());
+  std::vector<double> result(pressure.size());
+  for (std::size_t k = 0; k < order.size(); ++k) result[order[k]] = reading[k];
+  return result;
+}
+
 // Correlation of a[i + shift] with b[i], over all i where both exist.
 double correlation(const std::vector<double>& a, const std::vector<double>& b, std::ptrdiff_t shift) {
   const auto size = static_cast<std::ptrdiff_t>(b.size());
@@ -101,8 +115,9 @@ std::optional<ReferenceLag> referenceLag(const std::vector<double>& time, const 
   if (time.size() < kLeastScans) return std::nullopt;
   const double step = usualStep(time);
   const std::size_t span = halfSpan(time, pressure, step);
-  const std::vector<double> matrix = rates(evenly(time, reading, step), span);
-  const std::vector<double> chamber = rates(evenly(time, pressure, step), span);
+  const std::vector<double> readings = evenly(time, reading, step);
+  const std::vector<double> matrix = rates(readings, span);
+  const std::vector<double> chamber = rates(asReadings(evenly(time, pressure, step), readings), span);
   const auto most = std::min(static_cast<std::ptrdiff_t>(std::ceil(options.longest / step)),
                              static_cast<std::ptrdiff_t>(matrix.size() / 3));
   std::vector<double> fits;

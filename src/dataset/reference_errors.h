@@ -20,11 +20,12 @@ struct ReferenceLag {
   double step = 0;  ///< of the grid on which it was found [s]
 };
 
-/// The lag at which the rate of change of the sheet's median reading correlates best with that of the chamber
-/// pressure. None where there is no reference, fewer than 50 scans, or no lag with enough correlation. A lag
-/// shows stamps of two different clocks. Hysteresis also causes a lag of up to some tenths of a second,
-/// because the sheet turns later than its load. Rates are compared instead of values, because hysteresis does
-/// not move the corners of a curve. Gaps are bridged by straight lines.
+/// The lag at which the rate of change of the sheet's median reading correlates best with that of a reading
+/// that follows the chamber pressure at once, through a curve that gives both the same quantiles. None where
+/// there is no reference, fewer than 50 scans, or no lag with enough correlation. A lag shows stamps of two
+/// different clocks. Hysteresis also causes a lag of up to some tenths of a second, because the sheet turns
+/// later than its load. Rates are compared instead of values, because hysteresis does not move the corners of
+/// a curve. Gaps are bridged by straight lines.
 std::optional<ReferenceLag> referenceLag(const Recording& recording, const ReferenceLagOptions& options = {});
 /// The same of a sheet whose reading is known at each time [s].
 std::optional<ReferenceLag> referenceLag(const std::vector<double>& time, const std::vector<double>& reading,

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "support/synthetic_recording.h"
 
 namespace fsr::dataset {
@@ -46,6 +48,24 @@ TEST(ReferenceLag, IsSmallForAHysteresisLoop) {
   const auto lag = referenceLag(recorded(200));  // 5 % of full scale
   ASSERT_TRUE(lag);
   EXPECT_NEAR(lag->seconds, 0, 0.3);
+}
+
+// A chamber that fills and vents exponentially, under sheets that read most of it at the start or at the end.
+TEST(ReferenceLag, IsNoneOfACurvedCharacteristic) {
+  for (const double exponent : {0.2, 4.0}) {
+    std::vector<double> time, reading, pressure;
+    double now = 0;
+    for (int i = 0; i < 2000; ++i) {
+      const bool fills = i % 200 < 100;
+      now += 0.1 / 4 * ((fills ? 1 : 0) - now);
+      time.push_back(0.1 * i);
+      pressure.push_back(620e3 * now);
+      reading.push_back(4000 * std::pow(now, exponent));
+    }
+    const auto lag = referenceLag(time, reading, pressure);
+    ASSERT_TRUE(lag) << exponent;
+    EXPECT_NEAR(lag->seconds, 0, kTolerance) << exponent;
+  }
 }
 
 TEST(ReferenceLag, IsUnknownWithoutReferenceOrMotion) {
