@@ -35,18 +35,6 @@ TEST(DrivenGap, OfALoopAsWideAsItsFormulaPermits) {
             1);
 }
 
-// A column that fails at random: the simulation fails at other times, so nothing is closed.
-TEST(DrivenGap, OfALooseColumnIsNotCalledClosed) {
-  const DiscrepancyReport report = answerTo(planted::problem(
-      planted::withMatrix(5, 6), "  column_fault: {share: 0.04, line: 1, burst: 3, depth: 0.7}\n"));
-  ASSERT_FALSE(report.effects.empty()) << report.sentence;
-  ASSERT_EQ(report.effects.at(0).id, "column_fault");
-  EXPECT_GT(report.gap.after, 0.9 * report.gap.before);
-  EXPECT_TRUE(std::isnan(report.gap.closed));
-  ASSERT_FALSE(report.gap.missing.empty());
-  EXPECT_NE(report.gap.missing.back().find("random"), std::string::npos);
-}
-
 // Each surface has a cycle whose peak is a quarter higher than that of all others. Where it is held out, the
 // curves were not fitted to its pressures.
 TEST(DrivenGap, IsNotThatOfCurvesThatNoDataDetermine) {

@@ -194,6 +194,9 @@ TEST(Investigate, FindsTheHumOfTheMains) {
   EXPECT_EQ(report.effects.at(0).id, "mains_pickup");
   EXPECT_NEAR(valueOf(report, "amplitude"), 25, 5);
   EXPECT_NEAR(valueOf(report, "frequency"), 50.03, 0.1);
+  EXPECT_TRUE(std::isnan(report.gap.closed)) << "no simulation has its phase";
+  ASSERT_FALSE(report.gap.missing.empty());
+  EXPECT_NE(report.gap.missing.back().find("random"), std::string::npos);
 }
 
 // The break-in closes less than `second_adds` of what the loop leaves to close, so it is not named: the form
