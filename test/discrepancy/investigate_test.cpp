@@ -266,21 +266,21 @@ TEST(Investigate, NamesNoEffectThatMakesTheGapLarger) {
   DiscrepancyProblem problem = planted(kTwoSpeeds, "  hysteresis: {loop_width: 0.05}\n");
   const DiscrepancyReport named = answerTo(problem);
   ASSERT_EQ(named.verdict, Verdict::kNamed) << named.sentence;
+  const auto isHeldOut = [&](const fsr::dataset::Recording& recording, std::size_t scan) {
+    const std::int64_t stamp = recording.start_ns + std::llround(1e9 * recording.time[scan]);
+    const auto holds = [&](const auto& span) { return stamp >= span.first && stamp <= span.second; };
+    return std::any_of(named.hold_out.begin(), named.hold_out.end(), [&](const auto& held) {
+      return held.file == recording.name && std::any_of(held.cycles.begin(), held.cycles.end(), holds);
+    });
+  };
   const DiscrepancyProblem without = planted(kTwoSpeeds, "");
-  for (fsr::dataset::Recording& recording : problem.recordings) {
-    const auto index = static_cast<std::size_t>(&recording - problem.recordings.data());
-    for (const fsr::discrepancy::HoldOutCycles& held : named.hold_out) {
-      if (held.file != recording.name) continue;
-      for (const auto& [from, to] : held.cycles) {
-        for (std::size_t i = 0; i < recording.scans(); ++i) {
-          const std::int64_t stamp = recording.start_ns + std::llround(1e9 * recording.time[i]);
-          if (stamp < from || stamp > to) continue;
-          for (std::size_t t = 0; t < 12; ++t) {
-            std::uint16_t& count = recording.counts[i * 12 + t];
-            count = static_cast<std::uint16_t>(2 * without.recordings[index].counts[i * 12 + t] - count);
-          }
-        }
-      }
+  for (std::size_t r = 0; r < problem.recordings.size(); ++r) {
+    fsr::dataset::Recording& recording = problem.recordings[r];
+    const std::size_t taxels = recording.layout.size.taxels();
+    for (std::size_t i = 0; i < recording.counts.size(); ++i) {
+      std::uint16_t& count = recording.counts[i];
+      if (isHeldOut(recording, i / taxels))
+        count = static_cast<std::uint16_t>(2 * without.recordings[r].counts[i] - count);
     }
   }
   const DiscrepancyReport report = investigate(problem);
