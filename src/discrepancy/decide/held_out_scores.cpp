@@ -267,26 +267,24 @@ void HeldOutScores::whiten(const CycleNoise& noise, const StaticModel& model) {
     w.reading = root.matrixL().solve(bins.reading);
     if (w.covered.empty()) continue;
     const Eigen::MatrixXd half = rowsOf(covariance, w.covered);
-    const Eigen::MatrixXd some = rowsOf(half.transpose(), w.covered);
-    const Eigen::LLT<Eigen::MatrixXd> test(some);
-    w.test_root = test.matrixL();
-    w.test_statics = test.matrixL().solve(rowsOf(statics, w.covered));
-    w.test_columns = test.matrixL().solve(rowsOf(columns, w.covered));
-    w.test_reading = test.matrixL().solve(Eigen::VectorXd(rowsOf(bins.reading, w.covered)));
+    w.test_root = rowsOf(half.transpose(), w.covered);
+    w.test_statics = rowsOf(statics, w.covered);
+    w.test_columns = rowsOf(columns, w.covered);
+    w.test_reading = rowsOf(bins.reading, w.covered);
   }
 }
 
-// Expected square of the whitened error of the static model in a cycle that it was not fitted to, beyond
-// that of the noise.
-double HeldOutScores::uncertainty(const Whitened& cycle, const Eigen::MatrixXd& inverse) {
-  const auto size = static_cast<Index>(cycle.places.size());
-  Eigen::MatrixXd own(size, size);
-  for (Index a = 0; a < size; ++a) {
-    for (Index b = 0; b < size; ++b)
-      own(a, b) =
-          inverse(cycle.places[static_cast<std::size_t>(a)], cycle.places[static_cast<std::size_t>(b)]);
-  }
-  return (cycle.test_statics * own).cwiseProduct(cycle.test_statics).sum();
+// Whitens a cycle that the static model was not fitted to. Beside the noise there is what the other cycles
+// leave open in the static model: the curve at its ends, or the gain of a mounting that has no other cycle.
+// `inverse`: covariance of the statics, given the cycles of the other folds.
+void HeldOutScores::whitenTest(Whitened& w, const Eigen::MatrixXd& inverse) {
+  const Eigen::MatrixXd half = rowsOf(inverse, w.places);
+  const Eigen::MatrixXd own = rowsOf(half.transpose(), w.places);
+  const Eigen::LLT<Eigen::MatrixXd> root(w.test_root + w.test_statics * own * w.test_statics.transpose());
+  w.test_root = root.matrixL();
+  root.matrixL().solveInPlace(w.test_statics);
+  root.matrixL().solveInPlace(w.test_columns);
+  root.matrixL().solveInPlace(w.test_reading);
 }
 
 // Sums of products over the cycles of one fold.
@@ -372,6 +370,7 @@ void HeldOutScores::solveFolds() {
     fold.test_static = Eigen::MatrixXd::Zero(columns, statics);
     for (Whitened& w : cycles_) {
       if (w.fold != f || w.covered.empty()) continue;
+      whitenTest(w, fold.inverse);
       Eigen::VectorXd own(static_cast<Index>(w.places.size()));
       for (std::size_t a = 0; a < w.places.size(); ++a) own[static_cast<Index>(a)] = curve[w.places[a]];
       w.test_net = w.test_columns - w.test_statics * rowsOf(fold.solved, w.places);
@@ -381,7 +380,7 @@ void HeldOutScores::solveFolds() {
       for (std::size_t a = 0; a < w.places.size(); ++a)
         fold.test_static.col(w.places[a]) += with.col(static_cast<Index>(a));
       loss_ += w.test_error.squaredNorm();
-      expected_loss_ += static_cast<double>(w.covered.size()) + uncertainty(w, fold.inverse);
+      expected_loss_ += static_cast<double>(w.covered.size());
     }
   }
 }

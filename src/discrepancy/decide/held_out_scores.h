@@ -92,7 +92,7 @@ class HeldOutScores {
     Eigen::VectorXd reading;
     std::vector<Eigen::Index> places;
     std::vector<Eigen::Index> covered;           // bins within the pressures of the other folds
-    Eigen::MatrixXd test_root;                   // of those bins
+    Eigen::MatrixXd test_root;                   // of the covariance of those bins, given the other folds
     Eigen::MatrixXd test_statics, test_columns;  // whitened, of those bins
     Eigen::VectorXd test_reading;
     Eigen::MatrixXd test_net;    // columns less statics times `solved`
@@ -113,7 +113,7 @@ class HeldOutScores {
   void whiten(const CycleNoise& noise, const StaticModel& model);
   void assignFolds();
   void cover();
-  static double uncertainty(const Whitened& cycle, const Eigen::MatrixXd& inverse);
+  static void whitenTest(Whitened& cycle, const Eigen::MatrixXd& inverse);
   std::vector<Products> productsOfFolds() const;
   void solveFolds();
   void score();
