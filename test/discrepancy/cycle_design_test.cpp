@@ -212,6 +212,19 @@ TEST(CycleDesign, EstimatesTheWhiteNoiseOfABin) {
   EXPECT_NEAR(std::sqrt(scan / bins) * measured.full_scale, 2.31, 0.35);
 }
 
+// One surface was recorded with a reference that reads 5 kPa less. The curves of the others must not end in
+// whatever a spline does where it has no data.
+TEST(StaticFit, ContinuesEachCurveAsAStraightLineBeyondItsOwnPressures) {
+  DiscrepancyProblem problem = planted::problem(planted::kTwoSpeeds, "");
+  for (double& pressure : problem.recordings.back().pressure) pressure -= 5e3;
+  const Measured measured = admit(problem);
+  const StaticFit fit(measured, CurvePer::kClass, commonTraces(measured).all);
+  const double rest = fit.curveAt(0, 0), below = fit.curveAt(0, -2e3), far = fit.curveAt(0, -4e3);
+  EXPECT_LE(below, rest);
+  EXPECT_LE(far, below);
+  EXPECT_GE(far, std::min(fit.unloaded(), rest));
+}
+
 TEST(CycleDesign, TellsSurfacesAndRangeOfTheRecordings) {
   const DiscrepancyProblem problem = planted::problem(planted::kTwoSpeeds, "");
   const Measured measured = admit(problem);

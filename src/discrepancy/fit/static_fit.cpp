@@ -162,8 +162,14 @@ void StaticFit::fitCurves(const Trace& common, const Trace& load) {
     slope_[i] = std::max(slope, 0.0);
   }
   zero_ = INFINITY;
+  reach_.assign(groups_, {INFINITY, -INFINITY});
   for (std::size_t i = 0; i < fits_.size(); ++i) {
-    if (fits_[i]) zero_ = std::min(zero_, curve_[static_cast<Eigen::Index>(i)]);
+    if (!fits_[i]) continue;
+    const auto at = static_cast<Eigen::Index>(i);
+    zero_ = std::min(zero_, curve_[at]);
+    settings::Range& reach = reach_[group_[i]];
+    reach.low = std::min(reach.low, load[at]);
+    reach.high = std::max(reach.high, load[at]);
   }
   net_curve_ = curve_.array() - zero_;
 }
@@ -181,14 +187,14 @@ std::vector<Eigen::MatrixXd> StaticFit::normalMatrices() const {
 }
 
 double StaticFit::curveAt(std::size_t scan, double load) const {
-  const SplineBasis::Values at = basis_.at(load);
+  const settings::Range& fitted = reach_[group_[scan]];
+  const double within = std::clamp(load, fitted.low, fitted.high);
   double value = 0, slope = 0;
-  eachSpline(at, [&](Eigen::Index k, double x, double s) {
+  eachSpline(basis_.at(within), [&](Eigen::Index k, double x, double s) {
     value += x * fitted_(k, group_[scan]);
     slope += s * fitted_(k, group_[scan]);
   });
-  const double beyond = load - std::clamp(load, basis_.low(), basis_.high());
-  return std::max(value + std::max(slope, 0.0) * beyond, std::min(zero_, value));
+  return std::max(value + std::max(slope, 0.0) * (load - within), std::min(zero_, value));
 }
 
 Eigen::MatrixXd StaticFit::coefficientsOf(const Trace& trace, const std::vector<Normal>& normal) const {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "discrepancy/samples/measured.h"
+#include "fsr_pressure_map/settings/range.h"
 
 namespace fsr::discrepancy {
 
@@ -22,9 +23,6 @@ class SplineBasis {
 
   /// Number of coefficients: knots + 2.
   std::size_t size() const { return knots_.size() - kAtOnce; }
-
-  double low() const { return knots_.front(); }
-  double high() const { return knots_.back(); }
 
   /// Middle of a spline: Greville's abscissa. Coefficients that are a line over the middles make a line.
   double middle(std::size_t spline) const {
@@ -119,6 +117,7 @@ class StaticFit {
   std::vector<SplineBasis::Values> splines_;  // of each scan
   std::vector<Normal> plain_, weighted_;      // of each group
   Eigen::MatrixXd fitted_;                    // [coefficients x groups]
+  std::vector<settings::Range> reach_;        // of each group: loads to which its curve is fitted [Pa]
   Trace curve_, slope_, net_curve_;
   double zero_ = 0;
   std::vector<double> gain_weight_;  // of each cycle: factor along its gain in project()
