@@ -139,6 +139,15 @@ TEST(Appraisal, SaysWhatASecondEffectAdds) {
   EXPECT_LT(appraisal.additions[2].nats, 5) << "was not planted";
 }
 
+// The second effect has the wrong sign, so it explains nothing, and the loop is no error of its form.
+TEST(Appraisal, AnEffectAddsToOneThatExplainsNothingByItself) {
+  CycleDesign design = designWith(kLoop, kSize);
+  drawn::addColumn(design, kTurning, -kSize / 3);
+  const std::vector<Explaining> both = {effect("a", kLoop),
+                                        {{"b"}, {{{kTurning}, {false}}}, {Covariate::kTemperature}}};
+  EXPECT_GT(addedToAnyForm(design, fitNull(design), both, 0, 1, DiscrepancyOptions()), 20);
+}
+
 // Effect a closes most of the mixed column. Generic terms close all of it.
 TEST(Appraisal, SeesThatGenericTermsAreBetter) {
   const std::vector<Explaining> other = {effect("a", kLoop),

@@ -127,7 +127,6 @@ class Appraiser {
     first.explaining = explanations_[to];
     const std::vector<Explaining> alone = {first.explaining};
     first.score = scored(null_.noise, model_, alone).scores().front();
-    if (first.score.fit.variance == 0) return 0;
     first.noise = noiseUnder(first.explaining, first.score);
     const std::vector<HeldOutScore> plain = beyond(first, always(design_)).scores();
     const bool slow_to_fast = explanations_[one].slow && !first.explaining.slow;
