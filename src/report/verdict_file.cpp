@@ -214,7 +214,10 @@ const settings::Range kAnyNumber;  // includes .inf, e.g. the time constant of a
 
 Json effectsOf(const std::vector<simulation::EnabledEffect>& effects) {
   Json all = Json::object();
-  for (const simulation::EnabledEffect& effect : effects) all[effect.id] = effect.values;
+  for (const simulation::EnabledEffect& effect : effects) {
+    all[effect.id] = effect.values;
+    if (!effect.carried_over) all[effect.id]["carried_over"] = false;
+  }
   return all;
 }
 
@@ -225,7 +228,10 @@ std::vector<simulation::EnabledEffect> readEffects(const settings::Settings& sec
       throw section.error(id, "the library has no effect of this name");
     const settings::Settings values = section.section(id);
     simulation::EnabledEffect effect{id, {}};
-    for (const std::string& name : values.keys()) effect.values[name] = values.number(name, kAnyNumber);
+    effect.carried_over = values.flag("carried_over", true);
+    for (const std::string& name : values.keys()) {
+      if (name != "carried_over") effect.values[name] = values.number(name, kAnyNumber);
+    }
     effects.push_back(effect);
   }
   return effects;

@@ -76,6 +76,7 @@ SensorChain::SensorChain(const SimulationSettings& settings)
     links_.push_back({enabled->id, entry.info.stage,
                       entry.make(enabled->values, {settings.layout, settings.seed, enabled->spells}),
                       actingOn(*enabled, layout_.size.taxels()), enabled->only_surfaces,
+                      enabled->carried_over,
                       entry.info.required && entry.info.stage == ChainStage::kConductance});
   }
   if (curves_) {
@@ -93,7 +94,11 @@ void SensorChain::mount(const matrix::Surface& surface, const LoadPattern& patte
   Mounting mounting{surface.mount, principalCurvatures(surface, layout_.size.taxels()),
                     loadShares(pattern, layout_)};
   for (Link& link : links_) link.effect->place(mounting);
-  for (Link& link : links_) link.effect->mount(mounting);
+  for (Link& link : links_) {
+    std::vector<double>& state = link.effect->state();
+    if (!link.carried_over) std::fill(state.begin(), state.end(), 0.0);
+    link.effect->mount(mounting);
+  }
   for (Link& link : links_) {
     link.here = link.surfaces.empty() || std::count(link.surfaces.begin(), link.surfaces.end(), surface.name);
   }

@@ -58,8 +58,9 @@ class SensorChain {
     std::unique_ptr<Effect> effect;
     std::vector<std::uint8_t> acts;     // [taxels]; empty = everywhere
     std::vector<std::string> surfaces;  // empty = all
-    bool is_static_curve = false;       // the deviations of the taxels follow it
-    bool here = true;                   // on the surface where the matrix lies
+    bool carried_over = true;
+    bool is_static_curve = false;  // the deviations of the taxels follow it
+    bool here = true;              // on the surface where the matrix lies
     bool confined() const { return !here || !acts.empty(); }
   };
   void apply(Link& link, const RigSample& sample);

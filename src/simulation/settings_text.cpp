@@ -94,6 +94,8 @@ std::string text(const EnabledEffect& effect, const EffectInfo& info, const Valu
     surfaces += (surfaces.empty() ? "" : ", ") + settings::quotedText(surface);
   if (!taxels.empty()) result += "    only_taxels: [" + taxels + "]\n";
   if (!surfaces.empty()) result += "    only_surfaces: [" + surfaces + "]\n";
+  if (!effect.carried_over)
+    result += "    carried_over: false  # its memory begins anew with each mounting\n";
   for (const FaultSpell& spell : effect.spells) {
     result += (&spell == &effect.spells.front() ? "    spells: [" : ",\n             ") +
               std::to_string(spell.taxel) + ", " + settings::numberText(spell.from) + ", " +

@@ -118,6 +118,7 @@ EnabledEffect readEffect(const settings::Settings& settings, const EffectInfo& i
   }
   if (settings.has("spells")) effect.spells = readSpells(settings, info, size);
   if (settings.has("only_surfaces")) effect.only_surfaces = settings.texts("only_surfaces");
+  effect.carried_over = settings.flag("carried_over", true);
   return effect;
 }
 

@@ -42,8 +42,8 @@ Frozen frozen(const DiscrepancyProblem& problem, const std::string& named, const
   Frozen frozen;
   frozen.base = fitBase(measured, fit, problem.simulation);
   Decision decision;
-  decision.refined = refine(measured, common, fit, frozen.base, {effect(named)}, true, {});
-  decision.rivals = {refine(measured, common, fit, frozen.base, {effect(rival)}, true, {})};
+  decision.refined = refine(measured, common, fit, frozen.base, {effect(named)}, {});
+  decision.rivals = {refine(measured, common, fit, frozen.base, {effect(rival)}, {})};
   decision.densities = {{0, 0, 0}, {0, 0, 0}};
   frozen.prediction = freeze(decision, measured, common, fit, frozen.base, problem.options);
   frozen.prediction.hash = hashOf(frozen.prediction, frozen.base);

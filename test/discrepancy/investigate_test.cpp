@@ -127,9 +127,13 @@ TEST(Investigate, NamesCreepAndALeakApart) {
   const DiscrepancyReport creep = answerTo(planted(kTwoSpeeds, "  creep: {per_decade: 0.03}\n"));
   ASSERT_FALSE(creep.credible_set.empty()) << creep.sentence;
   EXPECT_EQ(creep.credible_set.at(0), std::vector<std::string>{"creep"});
-  const DiscrepancyReport leak = answerTo(planted(kTwoSpeeds, "  seal_leak: {time_constant: 900}\n"));
+  const DiscrepancyReport leak =
+      answerTo(planted(kTwoSpeeds, "  seal_leak: {time_constant: 900, carried_over: false}\n"));
   ASSERT_FALSE(leak.credible_set.empty()) << leak.sentence;
   EXPECT_EQ(leak.credible_set.at(0), std::vector<std::string>{"seal_leak"});
+  ASSERT_TRUE(leak.added.effect("seal_leak"));
+  EXPECT_FALSE(leak.added.effect("seal_leak")->carried_over) << "as it was planted";
+  EXPECT_GT(leak.gap.closed, 0.9);
 }
 
 TEST(Investigate, FindsARowThatFails) {

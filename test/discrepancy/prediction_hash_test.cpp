@@ -44,6 +44,7 @@ const std::vector<Change> kChanges = {
     {"last digits of a value", [](P& p, S&) { p.effects[0].values["amplitude"] *= 1 + 1e-14; }},
     {"a taxel of an effect", [](P& p, S&) { p.effects[0].only_taxels = {3}; }},
     {"a surface of an effect", [](P& p, S&) { p.effects[0].only_surfaces = {"flat"}; }},
+    {"a memory that begins anew", [](P& p, S&) { p.effects[0].carried_over = false; }},
     {"a rival", [](P& p, S&) { p.rivals.clear(); }},
     {"a rival's surface", [](P& p, S&) { p.rivals[0][0].only_surfaces = {"flat"}; }},
     {"the predicted size", [](P& p, S&) { p.size.high += 1e-12; }},

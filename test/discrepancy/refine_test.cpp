@@ -26,7 +26,7 @@ TEST(Refine, AGainDoesNotExplainNoiseByDividingIt) {
                                                       {"fading", INFINITY},
                                                       {"impulse_share", 0},
                                                       {"cycle_duration", 73}}};
-  EXPECT_LT(refine(measured, common, fit, problem.simulation, {withoutGainWeights}, true, {}).share, 0.05);
+  EXPECT_LT(refine(measured, common, fit, problem.simulation, {withoutGainWeights}, {}).share, 0.05);
 }
 
 TEST(Refine, KnowsWhereTheSizeOfAnEffectMayBeNone) {

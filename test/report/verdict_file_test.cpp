@@ -196,7 +196,8 @@ TEST_F(VerdictOnDisk, RefusalsNameTheFieldAndWhatWouldBeRight) {
 }
 
 TEST_F(VerdictOnDisk, PredictionKeepsEveryBit) {
-  const discrepancy::Prediction prediction = exampleDiscrepancy().prediction;
+  discrepancy::Prediction prediction = exampleDiscrepancy().prediction;
+  prediction.effects[0].carried_over = false;
   write(predictionText(
       {prediction, std::string(64, 'd'), {{17e3, 2, 620e3}, {40e3, 8.5, 620e3}}, {"ab12", "34"}}));
   const FrozenPrediction read = readPrediction(path_);
@@ -216,6 +217,7 @@ TEST_F(VerdictOnDisk, PredictionKeepsEveryBit) {
   EXPECT_TRUE(read.prediction.spread.parameters[1].logarithmic);
   ASSERT_EQ(read.prediction.effects.size(), 1u);
   EXPECT_EQ(read.prediction.effects[0].values, prediction.effects[0].values);
+  EXPECT_FALSE(read.prediction.effects[0].carried_over);
   ASSERT_EQ(read.prediction.rivals.size(), 2u);
   EXPECT_EQ(read.prediction.rivals[1][0].id, "time_skew");
 }

@@ -50,14 +50,29 @@ TEST(ConfinedEffect, EverywhereIsAsIfNothingWereSaid) {
   for (std::size_t r = 0; r < all.size(); ++r) EXPECT_EQ(all[r].counts, listed[r].counts);
 }
 
+// The second surface reads as on a sheet that was never on the first one.
+TEST(ConfinedEffect, ForgetsAtEachMountingWhereItIsNotCarriedOver) {
+  std::string alone = kTwoSurfaces;
+  const std::string first = "  - {surface: flat, flat: true}\n";
+  alone.erase(alone.find(first), first.size());
+  const auto fresh = simulateSession(
+      readSimulation(settings::Settings::fromText(alone + "  creep: {per_decade: 0.2}\n", "alone.yaml")));
+  const auto anew = simulateSession(settings("  creep: {per_decade: 0.2, carried_over: false}\n"));
+  const auto kept = simulateSession(settings("  creep: {per_decade: 0.2}\n"));
+  EXPECT_EQ(anew[1].counts, fresh[0].counts);
+  EXPECT_NE(kept[1].counts, fresh[0].counts);
+}
+
 TEST(ConfinedEffect, SurvivesSavingAndLoading) {
   const SimulationSettings written = settings(
-      "  hysteresis: {only_taxels: [1, 5], only_surfaces: [cylinder_5cm, \"a, b\"]}\n"
+      "  hysteresis: {only_taxels: [1, 5], only_surfaces: [cylinder_5cm, \"a, b\"], carried_over: false}\n"
       "  stuck_taxel: {spells: [1, 2.5, 3, -1, 5, 7, 1e9, 400]}\n"
       "  row_fault: {spells: [1, 2, 3, 0.5]}\n");
   const SimulationSettings read =
       readSimulation(settings::Settings::fromText(simulationText(written), "written.yaml"));
   EXPECT_EQ(read.effect("hysteresis")->only_taxels, (std::vector<std::size_t>{1, 5}));
+  EXPECT_FALSE(read.effect("hysteresis")->carried_over);
+  EXPECT_TRUE(read.effect("row_fault")->carried_over);
   EXPECT_EQ(read.effect("hysteresis")->only_surfaces, (std::vector<std::string>{"cylinder_5cm", "a, b"}));
   const std::vector<FaultSpell>& spells = read.effect("stuck_taxel")->spells;
   ASSERT_EQ(spells.size(), 2u);

@@ -61,6 +61,7 @@ struct EnabledEffect {
   std::vector<std::size_t> only_taxels{};    ///< on which it acts, row-major; empty = all
   std::vector<std::string> only_surfaces{};  ///< by name; empty = all
   std::vector<FaultSpell> spells{};          ///< of faults, in place of their parameters
+  bool carried_over = true;                  ///< its memory outlasts a new mounting
 };
 
 /// One mount of the matrix and the program of the chamber during it. It becomes one bag.

@@ -78,19 +78,18 @@ simulation::SimulationSettings withEffect(simulation::SimulationSettings setting
 }
 
 Changes changesBy(const Measured& measured, const simulation::SimulationSettings& base,
-                  const simulation::SimulationSettings& added, const DrivenSignals& without,
-                  bool state_kept) {
+                  const simulation::SimulationSettings& added, const DrivenSignals& without) {
   const simulation::SimulationSettings early = keepStages(added, base, false),
                                        late = keepStages(added, base, true);
   const auto samples = without.load.size();
   Changes changes{Trace::Zero(samples), Trace::Ones(samples), Trace::Zero(samples)};
   if (early.effects.size() > base.effects.size()) {
-    const DrivenSignals with = driven(measured, early, state_kept);
+    const DrivenSignals with = driven(measured, early);
     changes.load = with.load - without.load;
     changes.gain = with.gain.cwiseQuotient(without.gain.cwiseMax(1e-9));
   }
   if (late.effects.size() > base.effects.size()) {
-    changes.reading = driven(measured, late, state_kept).reading - without.reading;
+    changes.reading = driven(measured, late).reading - without.reading;
   }
   return changes;
 }
@@ -116,9 +115,9 @@ Changes Forward::changes(const std::vector<simulation::EnabledEffect>& effects,
     bent = withEffect(bent, effects[e]);
     if (!bent_only[e]) flat = withEffect(flat, effects[e]);
   }
-  Changes changes = changesBy(measured_, base_, bent, plain_, state_kept_);
+  Changes changes = changesBy(measured_, base_, bent, plain_);
   if (flat.effects.size() < bent.effects.size())
-    onFlat(measured_, changesBy(measured_, base_, flat, plain_, state_kept_), changes);
+    onFlat(measured_, changesBy(measured_, base_, flat, plain_), changes);
   levelGain(measured_, changes);
   return changes;
 }
@@ -199,14 +198,13 @@ class Refiner {
  public:
   Refiner(const Measured& measured, const CommonTraces& common, const StaticFit& fit,
           const simulation::SimulationSettings& base, std::vector<simulation::EnabledEffect> effects,
-          bool state_kept, std::vector<bool> bent_only)
+          std::vector<bool> bent_only)
       : measured_(measured),
         common_(common),
         fit_(fit),
         effects_(std::move(effects)),
-        state_kept_(state_kept),
         bent_only_(std::move(bent_only)),
-        forward_(measured, common, fit, base, state_kept) {
+        forward_(measured, common, fit, base) {
     bent_only_.resize(effects_.size(), false);
     knobs_ = knobsOf(simulation::libraryOf(base), effects_);
     for (const Knob& knob : knobs_) at_.push_back(knob.read(effects_[knob.effect].values.at(knob.name)));
@@ -233,7 +231,6 @@ class Refiner {
   const CommonTraces& common_;
   const StaticFit& fit_;
   std::vector<simulation::EnabledEffect> effects_;
-  bool state_kept_;
   std::vector<bool> bent_only_;  // of each effect
   std::vector<Knob> knobs_;
   std::vector<double> at_;
@@ -316,7 +313,6 @@ Refined Refiner::run() {
   for (std::size_t k = 0; k < at_.size(); ++k) at_[k] = knobs_[k].read(knobs_[k].write(at_[k]));
   Refined refined;
   refined.effects = effectsAt(at_);
-  refined.state_kept = state_kept_;
   refined.parameters.resize(effects_.size());
   refined.trace = Trace::Zero(common_.all.size());
   const auto left = error(at_);
@@ -359,14 +355,13 @@ bool mayBeNone(const Refined& refined, const simulation::EffectLibrary& library)
 
 Refined refine(const Measured& measured, const CommonTraces& common, const StaticFit& fit,
                const simulation::SimulationSettings& base,
-               const std::vector<simulation::EnabledEffect>& start, bool state_kept,
-               std::vector<bool> bent_only) {
-  return Refiner(measured, common, fit, base, start, state_kept, std::move(bent_only)).run();
+               const std::vector<simulation::EnabledEffect>& start, std::vector<bool> bent_only) {
+  return Refiner(measured, common, fit, base, start, std::move(bent_only)).run();
 }
 
 void takeOut(Measured& measured, const StaticFit& fit, const simulation::SimulationSettings& without,
              const simulation::SimulationSettings& with) {
-  const Changes changes = changesBy(measured, without, with, driven(measured, without, true), true);
+  const Changes changes = changesBy(measured, without, with, driven(measured, without));
   const Trace load = loadOf(measured, changes);
   if (measured.gain.empty()) {
     measured.unloaded = fit.unloaded();
@@ -400,7 +395,7 @@ simulation::SimulationSettings takeOutEnabled(Measured& measured, const CommonTr
   const std::size_t enabled = moving.size();
   moving.insert(moving.end(), beside.begin(), beside.end());
   if (fit_sizes) {
-    const Refined refined = refine(measured, common, fit, still, moving, true, {});
+    const Refined refined = refine(measured, common, fit, still, moving, {});
     for (std::size_t e = 0; refined.share > 0 && e < enabled; ++e)
       with = withEffect(with, refined.effects[e]);
   }

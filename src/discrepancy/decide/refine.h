@@ -26,7 +26,7 @@ struct Changes {
 /// Changes by the effects that `added` has beyond `base`, computed through the chain. `without` is what the
 /// chain gives for `base`.
 Changes changesBy(const Measured& measured, const simulation::SimulationSettings& base,
-                  const simulation::SimulationSettings& added, const DrivenSignals& without, bool state_kept);
+                  const simulation::SimulationSettings& added, const DrivenSignals& without);
 
 /// Load that the static curves see [Pa].
 Trace loadOf(const Measured& measured, const Changes& changes);
@@ -39,13 +39,8 @@ Trace withoutHoldOut(const Measured& measured, Trace trace);
 class Forward {
  public:
   Forward(const Measured& measured, const CommonTraces& common, const StaticFit& fit,
-          const simulation::SimulationSettings& base, bool state_kept)
-      : measured_(measured),
-        common_(common),
-        fit_(fit),
-        base_(base),
-        state_kept_(state_kept),
-        plain_(driven(measured, base, state_kept)) {}
+          const simulation::SimulationSettings& base)
+      : measured_(measured), common_(common), fit_(fit), base_(base), plain_(driven(measured, base)) {}
 
   /// Residual of the projected common trace with the effects; 0 in hold-out cycles. None where their
   /// parameters are not permitted. `bent_only`: of each effect, see refine().
@@ -63,7 +58,6 @@ class Forward {
   const CommonTraces& common_;
   const StaticFit& fit_;
   const simulation::SimulationSettings& base_;
-  bool state_kept_;
   DrivenSignals plain_;
 };
 
@@ -76,7 +70,6 @@ struct Refined {
   Trace left;                ///< residual of the projected common trace; 0 in hold-out cycles
   double share = 0;          ///< share of the projected common trace's squared error that they explain
   bool implausible = false;  ///< a strength is larger than its plausible range, with 95 % confidence
-  bool state_kept = true;    ///< as passed to refine()
   ParameterSpread spread;    ///< of the parameters; not between groups of cycles
 };
 
@@ -89,8 +82,7 @@ bool mayBeNone(const Refined& refined,
 /// false.
 Refined refine(const Measured& measured, const CommonTraces& common, const StaticFit& fit,
                const simulation::SimulationSettings& base,
-               const std::vector<simulation::EnabledEffect>& start, bool state_kept,
-               std::vector<bool> bent_only);
+               const std::vector<simulation::EnabledEffect>& start, std::vector<bool> bent_only);
 
 /// Whether an effect without a detector changes with time under a uniform pressure.
 bool hasTimeCourse(const simulation::EffectInfo& info);

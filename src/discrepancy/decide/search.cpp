@@ -43,7 +43,7 @@ std::optional<simulation::EnabledEffect> stepped(const simulation::EnabledEffect
 
 Trace changeOf(const Measured& measured, const StaticFit& fit, const simulation::EffectInfo& info,
                const DrivenSignals& without, const simulation::SimulationSettings& further) {
-  const DrivenSignals with = driven(measured, further, true);
+  const DrivenSignals with = driven(measured, further);
   const DrivenSignals change{with.load - without.load,
                              with.gain.cwiseQuotient(without.gain.cwiseMax(1e-9)).array() - 1,
                              with.reading - without.reading};
@@ -63,7 +63,7 @@ Eigen::MatrixXd enabledColumns(const Measured& measured, const StaticFit& fit,
     for (const simulation::EffectParameter& parameter : info.parameters) {
       const auto further = isFitted(parameter) ? stepped(effect, parameter) : std::nullopt;
       if (!further) continue;
-      if (!without) without = driven(measured, settings, true);
+      if (!without) without = driven(measured, settings);
       Trace change;
       try {
         change = changeOf(measured, fit, info, *without, withEffect(settings, *further));
@@ -153,6 +153,7 @@ std::vector<SingleColumn> Search::startsOf(const Weighed& weighed) const {
 simulation::EnabledEffect Search::begin(const SingleColumn& column) const {
   const Signature& signature = candidates_.signatures()[static_cast<std::size_t>(column.column)];
   simulation::EnabledEffect effect{signature.id, signature.values};
+  effect.carried_over = signature.state_kept;
   const simulation::EffectParameter& strength =
       simulation::parameter(measured_.info(signature.id), signature.strength);
   effect.values[signature.strength] =
@@ -164,9 +165,8 @@ Fitted Search::fitSingle(const Weighed& weighed) const {
   Fitted best{weighed.explaining.ids, {}, {false}};
   bool any = false;
   for (const SingleColumn& start : startsOf(weighed)) {
-    const Signature& signature = candidates_.signatures()[static_cast<std::size_t>(start.column)];
     const std::vector<bool> bent = {start.bent_only};
-    const Refined now = refine(measured_, common_, fit_, base_, {begin(start)}, signature.state_kept, bent);
+    const Refined now = refine(measured_, common_, fit_, base_, {begin(start)}, bent);
     if (any && now.share <= best.refined.share) continue;
     any = true;
     best.refined = now;
@@ -254,8 +254,8 @@ void Search::pairUp() {
     const SingleColumn& more = appraisal_.additions[e].beginning;
     const std::vector<bool> bent = {alone.bent_only.front(), more.bent_only};
     const std::vector<std::string> ids = {first.explaining.ids.front(), explanations_[e].ids.front()};
-    const Refined both = refine(measured_, common_, fit_, base_, {alone.refined.effects.front(), begin(more)},
-                                alone.refined.state_kept, bent);
+    const Refined both =
+        refine(measured_, common_, fit_, base_, {alone.refined.effects.front(), begin(more)}, bent);
     if (both.share <= alone.refined.share) continue;
     fitted_.push_back({ids, both, bent});
     Explaining pair{ids,
@@ -381,7 +381,7 @@ Trace Search::withoutEnabled(const Trace& trace, const Trace& part) const {
 void Search::dropPhases() {
   const auto phase = [&](std::size_t e) {
     const Fitted& fit = fitted(appraisal_.all[e]);
-    const Forward forward(measured_, common_, fit_, base_, fit.refined.state_kept);
+    const Forward forward(measured_, common_, fit_, base_);
     for (std::size_t k = 0; k < fit.refined.effects.size(); ++k) {
       if (!measured_.info(fit.refined.effects[k].id).same_at_each_pace) continue;
       const Trace part = forward.explained({fit.refined.effects[k]}, {fit.bent_only[k]});

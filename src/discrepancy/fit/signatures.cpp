@@ -97,6 +97,12 @@ class RecordedCourse {
   std::size_t at_ = 0;
 };
 
+// Whether the sheet was mounted again between two visits. Visits that do not number their mountings are taken
+// for a mounting each.
+bool mountedAgain(const Visit& before, const Visit& now) {
+  return now.surface.mount == 0 || !matrix::sameCondition(before.surface, now.surface);
+}
+
 // Drives a chain, or the difference of two chains, through everything that was recorded.
 template <typename Chain, typename Make, typename Use>
 void drive(const Measured& measured, bool state_kept, Make make, Use use) {
@@ -110,13 +116,17 @@ void drive(const Measured& measured, bool state_kept, Make make, Use use) {
     sample.pressure = 0;
     chain.read(sample);
   };
+  const Visit* last = nullptr;
   for (const Visit& visit : measured.visits) {
     const double start = measured.time[visit.first];
     const double before = visit.first > 0 ? measured.time[visit.first - 1] : start;
-    if (!state_kept && visit.first > 0) chain = make();
-    if (state_kept && start - before > kBreak) rest(before + kBreak / 4);
-    chain.mount(visit.surface);
-    if (state_kept && start - before > kBreak) rest(start - kBreak / 4);
+    const bool mounted = !last || mountedAgain(*last, visit);
+    const bool afresh = last && mounted && !state_kept;
+    last = &visit;
+    if (afresh) chain = make();
+    if (!afresh && start - before > kBreak) rest(before + kBreak / 4);
+    if (mounted) chain.mount(visit.surface);
+    if (!afresh && start - before > kBreak) rest(start - kBreak / 4);
     for (std::size_t i = visit.first; i < visit.last; ++i) {
       sample.time = measured.time[i];
       sample.pressure = measured.pressure[i];
@@ -290,12 +300,11 @@ DrivenSignals drivenDerivative(const Measured& measured, const simulation::Simul
   return signals;
 }
 
-DrivenSignals driven(const Measured& measured, const simulation::SimulationSettings& settings,
-                     bool state_kept) {
+DrivenSignals driven(const Measured& measured, const simulation::SimulationSettings& settings) {
   DrivenSignals signals = emptySignals(measured);
   const simulation::SimulationSettings one = representative(settings);
   drive<Chain>(
-      measured, state_kept, [&] { return Chain{simulation::SensorChain(one)}; },
+      measured, true, [&] { return Chain{simulation::SensorChain(one)}; },
       keep<Chain>(signals, one.fullScale()));
   return signals;
 }

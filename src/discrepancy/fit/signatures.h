@@ -35,7 +35,7 @@ struct Signature {
   std::string id;
   std::string strength;
   simulation::EffectValues values;  ///< of all parameters except the strength
-  bool state_kept = true;           ///< the state carries over between visits; else each visit starts afresh
+  bool state_kept = true;           ///< the state outlasts a new mounting; else each mounting starts afresh
   bool free_sign = false;
   double scale = 1;  ///< strength per unit of `trace`; its sign follows the effect's sign rule
   /// Strength at which the change of the reading is taken and divided by the strength; 0 = the derivative at
@@ -63,8 +63,7 @@ DrivenSignals drivenDerivative(const Measured& measured, const simulation::Simul
                                const simulation::EffectValues& values, bool state_kept);
 
 /// The signals of a chain.
-DrivenSignals driven(const Measured& measured, const simulation::SimulationSettings& settings,
-                     bool state_kept);
+DrivenSignals driven(const Measured& measured, const simulation::SimulationSettings& settings);
 
 /// Converts a change of load and gain into a change of the common trace, by the rise of the measured static
 /// curves and, for `amplitude` 0, by their slope. Otherwise the load changes by `amplitude` times the

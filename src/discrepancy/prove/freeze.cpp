@@ -38,7 +38,7 @@ class Predictor {
         effects_(effects),
         spread_(spread),
         everywhere_(effects.size(), false),
-        forward_(measured, common, fit, base, true) {}
+        forward_(measured, common, fit, base) {}
 
   Predicted run() const;
 
@@ -167,7 +167,7 @@ void write(std::ostream& out, const Effects& effects) {
     for (const std::size_t taxel : effect.only_taxels) out << taxel << ", ";
     out << "], only_surfaces: [";
     for (const std::string& surface : effect.only_surfaces) out << settings::quotedText(surface) << ", ";
-    out << "]} ";
+    out << (effect.carried_over ? "]} " : "], carried_over: false} ");  // older hashes stay
   }
   out << "\n";
 }

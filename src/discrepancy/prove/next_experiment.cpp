@@ -209,10 +209,10 @@ UnderProtocol explanationsUnder(const Protocol& protocol, const simulation::Simu
     simulation::SimulationSettings with = base;
     for (const auto& effect : contest.explanations[static_cast<std::size_t>(e)])
       with = withEffect(with, effect);
-    const Trace reading = driven(measured, with, true).reading;
+    const Trace reading = driven(measured, with).reading;
     columns.col(e) = StaticFit(measured, CurvePer::kClass, reading).residual(reading);
   }
-  const Trace reading = driven(measured, base, true).reading;
+  const Trace reading = driven(measured, base).reading;
   const CycleDesign design =
       cycleDesign(measured, StaticFit(measured, CurvePer::kClass, reading), reading, columns);
   const auto cycles = static_cast<double>(design.cycles.size());

@@ -114,7 +114,7 @@ Trace GapReporter::leftWithout(const Part& part) const {
   std::vector<simulation::EnabledEffect> effects = found_.decision.refined.effects;
   effects.insert(effects.end(), found_.beside.begin(), found_.beside.end());
   return refine(withoutPart(found_.measured, part), found_.common, found_.fit, report_.base, effects,
-                found_.decision.refined.state_kept, found_.decision.bent_only)
+                found_.decision.bent_only)
       .trace;
 }
 
@@ -267,7 +267,7 @@ class CalibratedSheet {
   CalibratedSheet(const Measured& measured, const simulation::SimulationSettings& settings)
       : measured_(asRecorded(measured)),
         settings_(representative(settings)),
-        fit_(measured_, CurvePer::kClass, driven(measured_, settings, true).reading) {}
+        fit_(measured_, CurvePer::kClass, driven(measured_, settings).reading) {}
 
   // Error of the pressure that the sheet reads at each step of the situation [Pa]; NaN where it does not
   // count. `highest`: pressure that the class reached in the recordings [Pa].
