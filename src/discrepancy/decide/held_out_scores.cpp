@@ -266,8 +266,7 @@ void HeldOutScores::whiten(const CycleNoise& noise, const StaticModel& model) {
     w.columns = root.matrixL().solve(columns);
     w.reading = root.matrixL().solve(bins.reading);
     if (w.covered.empty()) continue;
-    const Eigen::MatrixXd half = rowsOf(covariance, w.covered);
-    w.test_root = rowsOf(half.transpose(), w.covered);
+    w.test_root = among(covariance, w.covered);
     w.test_statics = rowsOf(statics, w.covered);
     w.test_columns = rowsOf(columns, w.covered);
     w.test_reading = rowsOf(bins.reading, w.covered);
@@ -278,9 +277,8 @@ void HeldOutScores::whiten(const CycleNoise& noise, const StaticModel& model) {
 // leave open in the static model: the curve at its ends, or the gain of a mounting that has no other cycle.
 // `inverse`: covariance of the statics, given the cycles of the other folds.
 void HeldOutScores::whitenTest(Whitened& w, const Eigen::MatrixXd& inverse) {
-  const Eigen::MatrixXd half = rowsOf(inverse, w.places);
-  const Eigen::MatrixXd own = rowsOf(half.transpose(), w.places);
-  const Eigen::LLT<Eigen::MatrixXd> root(w.test_root + w.test_statics * own * w.test_statics.transpose());
+  const Eigen::LLT<Eigen::MatrixXd> root(w.test_root + w.test_statics * among(inverse, w.places) *
+                                                           w.test_statics.transpose());
   w.test_root = root.matrixL();
   root.matrixL().solveInPlace(w.test_statics);
   root.matrixL().solveInPlace(w.test_columns);
