@@ -150,6 +150,9 @@ class SessionTest(unittest.TestCase):
         self.assertEqual(self.instruction.kind, Instruction.MOUNT)
         self.assertEqual((self.instruction.plan, self.instruction.surface, self.instruction.steps), ("test day", "flat", 11))
         self.stay(2)
+        self.wait_for(lambda: AMBIENT in self.commanded)  # until matrix_info has come, the standard's ambient pressure is commanded
+        self.commanded.clear()
+        self.stay(2)
         self.wait_for(lambda: self.commanded)
         self.assertEqual(set(self.commanded), {AMBIENT})
         self.assertEqual(self.confirm().kind, Instruction.CONDITION)
