@@ -95,9 +95,8 @@ class Investigation {
   std::vector<Detection> detections_, later_;
   simulation::SimulationSettings current_;  // includes all effects that were subtracted
   bool quiet_ = false;
-  bool by_terms_ = false;   // the gap is that of fitted terms, not of the effects in the simulation
-  bool by_chance_ = false;  // a part of what was found is random
-  Trace left_;              // part of the common trace's residual that the effects explain
+  bool by_terms_ = false;  // the gap is that of fitted terms, not of the effects in the simulation
+  Trace left_;             // part of the common trace's residual that the effects explain
   DiscrepancyReport report_;
 };
 
@@ -305,9 +304,9 @@ void Investigation::abstain(const std::string& outcome) {
 }
 
 // Whether the simulation with what is named is nearer to the hold-out cycles than that without it. What is
-// random is not repeated as it was recorded, so it cannot be; a fault need not show in these cycles.
+// random is in neither of them; a fault need not show in these cycles.
 bool Investigation::pays() const {
-  if (report_.effects.empty() || by_chance_ || report_.hold_out.empty()) return true;
+  if (report_.effects.empty() || report_.hold_out.empty()) return true;
   const Gap& gap = report_.gap;
   return decision_.credible.empty() ? gap.after <= gap.before : gap.after < gap.before;
 }
@@ -472,19 +471,19 @@ void Investigation::prove() {
     report_.added = withTaxelCurves(fit, report_.added, "simulation_curves.csv");
   }
   const auto& found = report_.effects;
-  by_chance_ = std::any_of(found.begin(), found.end(), [&](const FoundEffect& effect) {
+  const auto chance = std::count_if(found.begin(), found.end(), [&](const FoundEffect& effect) {
     const simulation::EnabledEffect* added = report_.added.effect(effect.id);
     return added && simulation::isByChance(measured_.info(effect.id), *added);
   });
   tell("gap", 0.97);
   measureDrivenGap(fit, hold_out, report_.base, report_.added, fit_->slope(),
-                   !report_.effects.empty() && !by_chance_, problem_.options.seed, report_.gap);
+                   chance < static_cast<std::ptrdiff_t>(found.size()), problem_.options.seed, report_.gap);
   report_.hold_out = hold_out.spans();
   auto& missing = report_.gap.missing;
-  if (by_chance_)
+  if (chance > 0)
     missing.push_back(
-        "A part of what was found is random, so no simulation repeats it as it was recorded. After it was "
-        "added, the gap may be larger than before.");
+        "A part of what was found is random, so no simulation repeats it as it was recorded. The gap leaves "
+        "it out, as it leaves out noise.");
   if (hold_out.leftOut() > 0)
     missing.push_back(std::to_string(hold_out.leftOut()) +
                       (hold_out.leftOut() == 1 ? " scan of the hold-out cycles was"

@@ -1,7 +1,7 @@
 """Recomputes the gap of a verdict: rms(measured - simulated) over the hold-out cycles that verdict.yaml names.
 
 The simulated readings are those of `simulate --drive` with the written base.yaml (before) and simulation.yaml (after), without
-white_noise. All bags are driven, because a sheet remembers what it went through; only the hold-out cycles are compared.
+what is random. All bags are driven, because a sheet remembers what it went through; only the hold-out cycles are compared.
 """
 
 import json
@@ -15,7 +15,10 @@ import numpy
 
 FRAME, INFO = "fsr_pressure_map/MatrixFrame", "fsr_pressure_map/MatrixInfo"
 ROUNDING = 1000  # of stamps that YAML reads as floating point numbers [ns]
-WHITE_NOISE = re.compile(r"^  white_noise:.*\n(?:(?:    .*|\s*)\n)*", re.MULTILINE)
+BLOCK = r"^  (?:%s):.*\n(?:(?:    .*|\s*)\n)*"
+WHITE_NOISE = re.compile(BLOCK % "white_noise", re.MULTILINE)
+RANDOM = re.compile(BLOCK % "mains_pickup|repositioning|row_fault|column_fault", re.MULTILINE)  # lines: unless their spells are known
+WALKS = re.compile(r"^(    (?:rate|zero)_walk:).*$", re.MULTILINE)
 
 
 class NotRecomputable(Exception):
@@ -73,6 +76,14 @@ def quiet_copy(simulation, folder):
     return copy
 
 
+def expected_copy(simulation, folder):
+    """The same without whatever else is random."""
+    copy = quiet_copy(simulation, folder)
+    text = RANDOM.sub(lambda effect: effect[0] if "spells:" in effect[0] else "", copy.read_text())
+    copy.write_text(WALKS.sub(r"\1 0", text))
+    return copy
+
+
 def runs_in_time_order(bags):
     """Bags in order of time; one that begins before the last one has ended starts a run of its own, with a fresh sheet."""
     runs, end = [], None
@@ -110,10 +121,10 @@ def squares(measured, simulated, cycles):
 
 def gap_of(command, simulation, runs, cycles, work, environment):
     total, scans, readings = 0.0, 0, 0
-    quiet = quiet_copy(simulation, work / "rig")
+    expected = expected_copy(simulation, work / "rig")
     for number, run in enumerate(runs):
         folder = work / ("driven_%s_%d" % (simulation.stem, number))
-        for measured, simulated in zip(run, drive(command, quiet, run, folder, environment)):
+        for measured, simulated in zip(run, drive(command, expected, run, folder, environment)):
             sums = squares(measured, simulated, cycles.get(measured.path.name, []))
             total, scans, readings = total + sums[0], scans + sums[1], readings + sums[2]
         shutil.rmtree(folder, ignore_errors=True)

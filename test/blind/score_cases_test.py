@@ -170,6 +170,13 @@ class Recomputed(Folder):
         return recompute.recompute([str(HERE / "fake_simulate.py")], bags, {"hold_out": cycles}, found, self.root / "work",
                                    dict(os.environ, FAKE_LOG=str(self.root / "log")))
 
+    def test_leaves_out_what_is_random(self):
+        (self.root / "rig.yaml").write_text("effects:\n  white_noise:\n    absolute: 2\n  repositioning: {gain: 0.1}\n  drift:\n"
+                                            "    rate: 0.2\n    rate_walk: 0.1  # a\n  row_fault:\n    loss: 1\n  column_fault:\n"
+                                            "    loss: 1\n    spells: [1]\n  mains_pickup:\n    gain: 1\nseed: 1\n")
+        self.assertEqual(recompute.expected_copy(self.root / "rig.yaml", self.root / "copy").read_text(),
+                         "effects:\n  drift:\n    rate: 0.2\n    rate_walk: 0\n  column_fault:\n    loss: 1\n    spells: [1]\nseed: 1\n")
+
     def stamps(self, bag):
         return recompute.Scans(self.cases / "loop" / "bags" / bag).stamps / 1e9
 

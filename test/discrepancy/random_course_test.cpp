@@ -200,6 +200,8 @@ TEST(RandomWalk, OfSomeTaxelsIsFoundOnThemAndNotNamedAloneWithoutAThermometer) {
   EXPECT_EQ(report.credible_set[1], std::vector<std::string>{"temperature"});
   ASSERT_FALSE(report.next_experiment.empty());
   EXPECT_EQ(report.next_experiment[0].protocol, "two_ambients");
+  EXPECT_EQ(report.gap.after, report.gap.before) << "what is random is in neither";
+  EXPECT_TRUE(std::isnan(report.gap.closed));
   EXPECT_EQ(report.where.taxels, (std::vector<std::size_t>{1, 4, 6, 11}));
   EXPECT_LT(report.effects.at(0).parameters.at(0).interval.low, 300);
   EXPECT_GT(report.effects.at(0).parameters.at(0).interval.high, 300);

@@ -17,20 +17,20 @@ constexpr std::size_t kReadingsInMemory = 16u << 20;  // of one recording [bytes
 class Driver {
  public:
   Driver(const dataset::Recording& first, const simulation::SimulationSettings& simulation)
-      : quiet_(simulation::withoutNoise(simulation::fitted(simulation, first))),
+      : expected_(simulation::withoutChance(simulation::fitted(simulation, first))),
         origin_ns_(first.start_ns),
-        rig_(quiet_) {}
+        rig_(expected_) {}
 
   template <typename Use>
   void run(const dataset::Recording& recording, Use use) {
     const double start = 1e-9 * static_cast<double>(recording.start_ns - origin_ns_);
-    if (start + recording.time.front() < end_) rig_ = simulation::DrivenRig(quiet_);
+    if (start + recording.time.front() < end_) rig_ = simulation::DrivenRig(expected_);
     end_ = start + recording.time.back();
     rig_.run(recording, use);
   }
 
  private:
-  simulation::SimulationSettings quiet_;
+  simulation::SimulationSettings expected_;
   std::int64_t origin_ns_;
   simulation::DrivenRig rig_;
   double end_ = -INFINITY;  // of the last recording [s]

@@ -12,11 +12,11 @@
 
 namespace fsr::discrepancy {
 
-/// Drives a simulation through recordings as `simulate --drive` does: without white noise, at every scan,
-/// with the matrix and the full scale of the first recording, and with the state kept from one recording to
-/// the next. `recordings` are in order of time. A recording that begins before the last one ended starts with
-/// a new sheet (bags that were converted from tables may all begin at the same date). `use` gets the place of
-/// the recording, the scan, and the chain after that scan.
+/// Drives a simulation through recordings as `simulate --gap` does: without noise and whatever else is
+/// random, at every scan, with the matrix and the full scale of the first recording, and with the state kept
+/// from one recording to the next. `recordings` are in order of time. A recording that begins before the last
+/// one ended starts with a new sheet (bags that were converted from tables may all begin at the same date).
+/// `use` gets the place of the recording, the scan, and the chain after that scan.
 void driveRecordings(const std::vector<const dataset::Recording*>& recordings,
                      const simulation::SimulationSettings& simulation,
                      const std::function<void(std::size_t recording, std::size_t scan,

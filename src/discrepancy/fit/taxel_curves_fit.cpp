@@ -304,7 +304,7 @@ std::vector<double> SurfaceFit::solved() const {
 class CurvesFit {
  public:
   CurvesFit(const FitView& fit, const simulation::SimulationSettings& simulation)
-      : fit_(fit), simulation_(simulation::withoutChance(simulation)) {
+      : fit_(fit), simulation_(simulation) {
     simulation_.taxel_curves.reset();
     simulation_ = simulation::fitted(simulation_, *fit.recordings().front());
     curves_ = emptyCurves(fit, simulation_);

@@ -9,7 +9,7 @@
 namespace fsr::discrepancy {
 
 /// Measures the gap of two simulations on the hold-out scans by driving both through all recordings, as
-/// `simulate --drive` does without white noise. Fills all fields of Gap that are numbers of this gap.
+/// driveRecordings() does. Fills all fields of Gap that are numbers of this gap.
 /// `slope`: of the static curves at each sample [share of full scale / Pa]. `explained`: whether `after` has
 /// effects that explain the gap, so that Gap::closed has a meaning. Intervals are of a bootstrap over the
 /// hold-out cycles, for two cycles or more.
