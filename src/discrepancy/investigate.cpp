@@ -73,7 +73,9 @@ class Investigation {
   void prove();
   void listDependences();
   void takeInCourse();
+  Ids partnersOf(const std::string& detected) const;
   void addPartners();
+  CandidateScore& candidate(const std::string& id);
   void listDetections();
   void plan();
   double squareOfReadings() const {
@@ -421,15 +423,22 @@ void Investigation::putDetections() {
   addPartners();
 }
 
-// The lack of evidence does not exclude that a random course is that of another effect.
+// What the lack of evidence does not exclude in place of an effect that a detector found.
+Ids Investigation::partnersOf(const std::string& detected) const {
+  if (decision_.course && decision_.course->effect.id == detected) return decision_.course->partners;
+  return untestedBeside(detected, measured_, *candidates_, current_, problem_.options.leave_out);
+}
+
 void Investigation::addPartners() {
-  if (!decision_.course || decision_.course->partners.empty()) return;
-  report_.verdict = Verdict::kAmbiguous;
   const Ids with = report_.credible_set.front();
-  for (const std::string& partner : decision_.course->partners) {
-    report_.credible_set.push_back(with);
-    std::replace(report_.credible_set.back().begin(), report_.credible_set.back().end(),
-                 decision_.course->effect.id, partner);
+  for (const Detection& detection : detections_) {
+    for (const std::string& partner : partnersOf(detection.effect.id)) {
+      if (std::count(with.begin(), with.end(), partner)) continue;
+      report_.verdict = Verdict::kAmbiguous;
+      report_.credible_set.push_back(with);
+      std::replace(report_.credible_set.back().begin(), report_.credible_set.back().end(),
+                   detection.effect.id, partner);
+    }
   }
 }
 
@@ -495,25 +504,30 @@ void Investigation::prove() {
   report_.gap.foretold.clear();
 }
 
+// The entry of a single effect. One that did not compete has no scores.
+CandidateScore& Investigation::candidate(const std::string& id) {
+  auto& all = report_.candidates;
+  const Ids ids = {id};
+  const auto competed =
+      std::find_if(all.begin(), all.end(), [&](const CandidateScore& one) { return one.ids == ids; });
+  if (competed != all.end()) return *competed;
+  CandidateScore added;
+  added.ids = ids;
+  added.nats = added.p = added.z = added.share_of_explainable = added.at_map = NAN;
+  return *all.insert(all.begin(), added);
+}
+
 // Lists what detectors and later rounds found beside the explanations of the common trace.
 void Investigation::listDetections() {
   if (report_.verdict == Verdict::kUnknown) return;
   for (const Detection& detection : detections_) {
-    auto& all = report_.candidates;
-    const Ids ids = {detection.effect.id};
-    const auto competed = std::find_if(all.begin(), all.end(),
-                                       [&](const CandidateScore& candidate) { return candidate.ids == ids; });
-    if (competed != all.end()) {
-      competed->outcome = report_.verdict == Verdict::kAmbiguous && decision_.course ? "credible" : "named";
-      continue;
-    }
-    CandidateScore candidate;
-    candidate.ids = ids;
-    candidate.outcome = "named";
-    candidate.nats = candidate.p = candidate.at_map = NAN;
-    candidate.z = detection.effect.z;
-    candidate.share_of_explainable = detection.effect.share_of_explainable;
-    all.insert(all.begin(), candidate);
+    const Ids partners = partnersOf(detection.effect.id);
+    for (const std::string& partner : partners) candidate(partner).outcome = "credible";
+    CandidateScore& own = candidate(detection.effect.id);
+    own.outcome = partners.empty() ? "named" : "credible";
+    if (!std::isnan(own.z)) continue;
+    own.z = detection.effect.z;
+    own.share_of_explainable = detection.effect.share_of_explainable;
   }
 }
 
@@ -555,14 +569,16 @@ void Investigation::plan() {
     report_.next_experiment = experimentFor(report_.depends_on, !report_.hold_out.empty(), peak);
     return;
   }
-  if (decision_.course && report_.verdict == Verdict::kAmbiguous) {
-    std::vector<std::string> covariates;
-    for (const std::string& partner : decision_.course->partners) {
-      for (const simulation::Covariate c : measured_.info(partner).depends_on)
-        covariates.push_back(simulation::name(c));
-    }
-    report_.next_experiment = experimentFor(covariates, true, peak);
+  Ids partners = decision_.untested, covariates;
+  for (const Detection& detection : detections_) {
+    const Ids of_detection = partnersOf(detection.effect.id);
+    partners.insert(partners.end(), of_detection.begin(), of_detection.end());
   }
+  for (const std::string& partner : partners) {
+    for (const simulation::Covariate c : measured_.info(partner).depends_on)
+      covariates.push_back(simulation::name(c));
+  }
+  if (report_.verdict == Verdict::kAmbiguous) report_.next_experiment = experimentFor(covariates, true, peak);
   if (decision_.credible.empty()) return;
   report_.prediction = freeze(decision_, measured_, common_, *fit_, report_.base, problem_.options);
   Contest contest;
@@ -570,12 +586,14 @@ void Investigation::plan() {
   for (const Refined& rival : decision_.rivals) contest.explanations.push_back(rival.effects);
   contest.weights = report_.prediction.weights;
   contest.unknown = 1 - problem_.options.credible;
+  contest.untested = decision_.untested;
   contest.at_hand = availableEvidence(measured_);
   contest.noise = decision_.noise;
   contest.peak = peak;
   contest.draws = problem_.options.null_draws;
   contest.seed = problem_.options.seed;
-  report_.next_experiment = nextExperiment(onItsSurfaces(report_.base, measured_), contest);
+  const auto next = nextExperiment(onItsSurfaces(report_.base, measured_), contest);
+  if (!next.empty()) report_.next_experiment = next;
 }
 
 // Writes the findings and their gap into the report.

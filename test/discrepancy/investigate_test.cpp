@@ -230,6 +230,28 @@ TEST(Investigate, SaysWhichTaxelsAreOddWhereNoFaultIsInTheLibrary) {
   EXPECT_EQ(answerTo(dead).verdict, Verdict::kUnknown);
 }
 
+// From mount to mount a room may be warmer, too. What is random is in neither simulation of the gap.
+TEST(Investigate, IsAmbiguousBetweenMountsAndTheRoomWithoutAThermometer) {
+  std::string rig = kTwoSpeeds;
+  rig.insert(rig.find("effects:"),
+             "  - {surface: flat, flat: true, pause: 300}\n  - {surface: flat, flat: true, pause: 300}\n");
+  const std::string room = "climate: {room: [{time: 0, temperature: 23}]}\n";
+  for (const bool thermometer : {true, false}) {
+    DiscrepancyProblem problem = planted(rig, "  repositioning: {offset: 8000, gain: 0.05}\n" + room);
+    if (!thermometer) {
+      for (fsr::dataset::Recording& recording : problem.recordings) recording.temperature.clear();
+    }
+    const DiscrepancyReport report = answerTo(problem);
+    EXPECT_EQ(report.verdict, thermometer ? Verdict::kNamed : Verdict::kAmbiguous) << report.sentence;
+    EXPECT_EQ(report.credible_set.at(0), std::vector<std::string>{"repositioning"}) << report.sentence;
+    EXPECT_EQ(report.gap.after, report.gap.before);
+    if (thermometer) continue;
+    EXPECT_EQ(report.credible_set.at(1), std::vector<std::string>{"temperature"});
+    ASSERT_FALSE(report.next_experiment.empty());
+    EXPECT_EQ(report.next_experiment[0].protocol, "two_ambients");
+  }
+}
+
 // One speed cannot distinguish a loop from a short memory. The recommended experiment can. The prediction
 // that was made before it passes for the true effect and fails for the other.
 TEST(Investigate, RecommendsAnExperimentThatSettlesIt) {

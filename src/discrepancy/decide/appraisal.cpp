@@ -134,7 +134,7 @@ class Appraiser {
     for (std::size_t g = 0; g < explanations_.size(); ++g) {
       const Explaining& generic = explanations_[g];
       if (!generic.generic() || plain[g].total <= 0) continue;
-      if (slow_to_fast ? !generic.slow : within(generic.covariates, first.explaining))
+      if (slow_to_fast ? !generic.slow : within(generic.covariates, first.explaining.covariates))
         forms.add(generic.forms[plain[g].form], plain[g].fit);
     }
     return beyond(first, forms).scores()[one].total;
@@ -425,9 +425,9 @@ class Appraiser {
   }
 
   void gatherSet() {
-    std::vector<std::size_t> rivals;
+    std::vector<std::size_t> rivals, generic;
     for (std::size_t e = 0; e < result_.all.size(); ++e) {
-      if (result_.all[e].contends && !result_.all[e].explaining.generic()) rivals.push_back(e);
+      if (result_.all[e].contends) (result_.all[e].explaining.generic() ? generic : rivals).push_back(e);
     }
     std::sort(rivals.begin(), rivals.end(),
               [&](std::size_t a, std::size_t b) { return result_.all[a].total > result_.all[b].total; });
@@ -437,6 +437,7 @@ class Appraiser {
     rivals = notExcluded(rivals, best);
     result_.credible = {best};
     result_.credible.insert(result_.credible.end(), rivals.begin(), rivals.end());
+    result_.generic = notExcluded(generic, best);
     keepMinimal();
   }
 
@@ -513,7 +514,7 @@ class Appraiser {
     for (std::size_t e = 0; e < result_.all.size(); ++e) {
       const Weighed& one = result_.all[e];
       if (!one.contends || !one.explaining.generic()) continue;
-      auto& best = within(one.explaining.covariates, result_.all[effect].explaining) ? own : other;
+      auto& best = within(one.explaining.covariates, result_.all[effect].explaining.covariates) ? own : other;
       if (!best || one.total > result_.all[*best].total) best = e;
     }
     if (own) result_.own_form_better = better(*own, effect);

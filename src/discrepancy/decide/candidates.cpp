@@ -94,8 +94,8 @@ std::string nameOf(const Explaining& explaining) {
   return text;
 }
 
-bool within(const std::vector<simulation::Covariate>& covariates, const Explaining& explaining) {
-  const auto& own = explaining.covariates;
+bool within(const std::vector<simulation::Covariate>& covariates,
+            const std::vector<simulation::Covariate>& own) {
   return std::all_of(covariates.begin(), covariates.end(), [&](simulation::Covariate c) {
     return c == simulation::Covariate::kCurvature || std::count(own.begin(), own.end(), c) > 0;
   });

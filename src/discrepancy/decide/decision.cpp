@@ -46,7 +46,8 @@ class Verdicts {
   void tellEffects();
   void tellRest();
   void addPartners(const Ids& ids);
-  void addPartner(const std::string& id, bool lacks_the_same);
+  void addPartner(const std::string& id);
+  void addUntested(const Ids& ids, const std::string& id);
   void listCandidates();
   void listCovariates();
   void listSmallestSeen();
@@ -61,7 +62,7 @@ class Verdicts {
   Search search_;
   const Appraisal& appraisal_;         // of the search
   std::vector<std::size_t> credible_;  // explanations, the preferred one first
-  std::vector<std::string> untold_;    // effects that could not compete and cannot be excluded
+  std::vector<Ids> untold_;            // explanations by effects that could not compete
   const Weighed* told_ = nullptr;      // explanation of the verdict; nullptr = nothing is missing
   Decision decision_;
 };
@@ -157,7 +158,7 @@ void Verdicts::tellCourse() {
       finding.partners.push_back(other.front());
   }
   addPartners({id});
-  finding.partners.insert(finding.partners.end(), untold_.begin(), untold_.end());
+  for (const Ids& untold : untold_) finding.partners.push_back(untold.front());
   decision_.p = found.p;
   decision_.at_map = found.at_map;
   for (const simulation::Covariate c : found.explaining.covariates)
@@ -166,32 +167,42 @@ void Verdicts::tellCourse() {
 }
 
 // An effect that needs evidence which was not recorded cannot be told from the effects with similar traces.
-// Those that come near it stay credible, and those that could not compete for lack of the same evidence.
+// Those that come near it stay credible, and so do those that could not compete.
 void Verdicts::addPartners(const Ids& ids) {
   const AvailableEvidence evidence = availableEvidence(measured_);
-  const auto lacks = [&](const simulation::EffectInfo& info, simulation::Evidence need) {
-    return std::count(info.needs.begin(), info.needs.end(), need) > 0 && !evidence.has(need);
-  };
   for (const std::string& id : ids) {
     const simulation::EffectInfo& info = measured_.info(id);
-    for (const simulation::Evidence need : info.needs) {
-      if (!lacks(info, need)) continue;
-      for (const std::string& other : info.collinear) addPartner(other, lacks(measured_.info(other), need));
+    if (!evidence.hasAll(info.needs)) {
+      for (const std::string& other : info.collinear) addPartner(other);
     }
+    addUntested(ids, id);
   }
 }
 
-void Verdicts::addPartner(const std::string& id, bool lacks_the_same) {
-  bool competed = false;
+void Verdicts::addPartner(const std::string& id) {
   for (std::size_t e = 0; e < appraisal_.all.size(); ++e) {
     const Weighed& one = appraisal_.all[e];
-    if (one.explaining.ids != Ids{id} || one.explaining.by_chance) continue;
-    competed = true;
-    if (one.contends && !std::count(credible_.begin(), credible_.end(), e)) credible_.push_back(e);
+    const bool own = one.explaining.ids == Ids{id} && !one.explaining.by_chance;
+    if (own && one.contends && !std::count(credible_.begin(), credible_.end(), e)) credible_.push_back(e);
   }
-  const bool sought = measured_.info(id).looked_for && mayBeFound(id, base_, options_.leave_out);
-  if (!competed && lacks_the_same && sought && !std::count(untold_.begin(), untold_.end(), id))
-    untold_.push_back(id);
+}
+
+// Explanations in which an effect that could not compete takes the place of one that did. Beside one that
+// lacks no evidence, generic terms of its covariates must stand for it.
+void Verdicts::addUntested(const Ids& ids, const std::string& id) {
+  const bool proved = availableEvidence(measured_).hasAll(measured_.info(id).needs);
+  const auto& generic = appraisal_.generic;
+  for (const std::string& other : untestedBeside(id, measured_, candidates_, base_, options_.leave_out)) {
+    const auto stands = [&](std::size_t e) {
+      return within(appraisal_.all[e].explaining.covariates, measured_.info(other).depends_on);
+    };
+    if (proved && std::none_of(generic.begin(), generic.end(), stands)) continue;
+    Ids instead = ids;
+    std::replace(instead.begin(), instead.end(), id, other);
+    if (!std::count(untold_.begin(), untold_.end(), instead)) untold_.push_back(instead);
+    auto& untested = decision_.untested;
+    if (!std::count(untested.begin(), untested.end(), other)) untested.push_back(other);
+  }
 }
 
 void Verdicts::tellEffects() {
@@ -213,7 +224,7 @@ void Verdicts::tellEffects() {
     decision_.credible.push_back(appraisal_.all[e].explaining.ids);
     if (e != credible_.front()) decision_.rivals.push_back(search_.fitted(appraisal_.all[e]).refined);
   }
-  for (const std::string& id : untold_) decision_.credible.push_back({id});
+  decision_.credible.insert(decision_.credible.end(), untold_.begin(), untold_.end());
   tellRest();
   for (const simulation::Covariate c : first.explaining.covariates)
     decision_.depends_on.push_back(simulation::name(c));
@@ -256,9 +267,9 @@ void Verdicts::listCandidates() {
     candidate.at_map = one.at_map;
     decision_.candidates.push_back(candidate);
   }
-  for (const std::string& id : untold_) {
+  for (const Ids& ids : untold_) {
     CandidateScore candidate;
-    candidate.ids = {id};
+    candidate.ids = ids;
     candidate.outcome = "credible";
     for (double* none :
          {&candidate.nats, &candidate.p, &candidate.z, &candidate.share_of_explainable, &candidate.at_map})
@@ -351,6 +362,32 @@ Decision Verdicts::run() {
 }
 
 }  // namespace
+
+std::vector<std::string> untestedBeside(const std::string& id, const Measured& measured,
+                                        const Candidates& candidates,
+                                        const simulation::SimulationSettings& base,
+                                        const std::vector<std::string>& leave_out) {
+  const AvailableEvidence evidence = availableEvidence(measured);
+  const auto& explanations = candidates.explanations();
+  const auto& own = measured.info(id).depends_on;
+  std::vector<std::string> untested;
+  const bool slow = std::any_of(own.begin(), own.end(), [](simulation::Covariate c) {
+    return c == simulation::Covariate::kCycle || c == simulation::Covariate::kClockTime ||
+           c == simulation::Covariate::kMount;
+  });
+  if (!slow) return untested;
+  for (const simulation::EffectEntry& entry : measured.effects().entries()) {
+    const simulation::EffectInfo& info = entry.info;
+    const bool competed = std::any_of(explanations.begin(), explanations.end(), [&](const Explaining& one) {
+      return one.ids == Ids{info.id} && !one.by_chance;
+    });
+    const bool resembles = std::count(info.collinear.begin(), info.collinear.end(), id) > 0;
+    if (resembles && !competed && info.looked_for && !evidence.lacking(info.needs).empty() &&
+        mayBeFound(info.id, base, leave_out))
+      untested.push_back(info.id);
+  }
+  return untested;
+}
 
 Decision decide(const Measured& measured, const CommonTraces& common, const StaticFit& fit,
                 const Candidates& candidates, const simulation::SimulationSettings& base,

@@ -48,9 +48,17 @@ struct Decision {
   /// Of the preferred explanation and of each rival: predictive log density of each cycle [nats]. A rival
   /// that is credible because evidence is lacking has that of the preferred one.
   std::vector<std::vector<double>> densities;
+  std::vector<std::string> untested;     ///< effects that are credible because nothing tests them
   NoiseOfCycles noise;                   ///< fitted together with the preferred explanation
   std::vector<std::string> limitations;  ///< sentences
 };
+
+/// Effects that resemble another one and could not compete, because evidence that they need was not recorded:
+/// nothing excludes them where the other one is found. None beside an effect that acts within a cycle alone.
+std::vector<std::string> untestedBeside(const std::string& id, const Measured& measured,
+                                        const Candidates& candidates,
+                                        const simulation::SimulationSettings& base,
+                                        const std::vector<std::string>& leave_out);
 
 /// Returns the first verdict that holds, in the order none, unknown, ambiguous, wrong_form, named.
 ///

@@ -252,24 +252,6 @@ AvailableEvidence with(const Protocol& protocol, AvailableEvidence evidence) {
   return evidence;
 }
 
-// How many kinds of evidence are lacking that the effects of the explanations need to be named alone.
-// Evidence that no protocol provides does not count.
-std::size_t lacking(const simulation::EffectLibrary& library, const AvailableEvidence& evidence,
-                    const std::vector<std::vector<simulation::EnabledEffect>>& explanations) {
-  std::set<simulation::Evidence> needs;
-  for (const auto& effects : explanations) {
-    for (const simulation::EnabledEffect& effect : effects) {
-      for (const simulation::Evidence need : library.info(effect.id).needs) {
-        const bool can = need == simulation::Evidence::kTwoRampRates ||
-                         need == simulation::Evidence::kThermometer ||
-                         need == simulation::Evidence::kManyCycles;
-        if (can && !evidence.has(need)) needs.insert(need);
-      }
-    }
-  }
-  return needs.size();
-}
-
 const Protocol& protocolCalled(const std::string& name) {
   return *std::find_if(std::begin(kProtocols), std::end(kProtocols),
                        [&](const Protocol& one) { return one.name == name; });
@@ -329,11 +311,18 @@ class Planner {
  private:
   static constexpr int kRounds = 2;
 
-  // Kinds of evidence that are lacking now, and after a protocol.
-  std::size_t lacks() const { return lacking(library_, at_hand_, contest_.explanations); }
-  std::size_t lacksAfter(const Protocol& protocol) const {
-    return lacking(library_, with(protocol, at_hand_), contest_.explanations);
+  // Kinds of evidence that are lacking for naming an effect alone, now and after a protocol.
+  std::size_t lacks(const AvailableEvidence& evidence) const {
+    std::set<simulation::Evidence> all;
+    const auto add = [&](const std::string& id) { all.merge(evidence.lacking(library_.info(id).needs)); };
+    for (const auto& effects : contest_.explanations) {
+      for (const simulation::EnabledEffect& effect : effects) add(effect.id);
+    }
+    std::for_each(contest_.untested.begin(), contest_.untested.end(), add);
+    return all.size();
   }
+  std::size_t lacks() const { return lacks(at_hand_); }
+  std::size_t lacksAfter(const Protocol& protocol) const { return lacks(with(protocol, at_hand_)); }
   std::size_t fewestLacking() const {
     std::size_t fewest = lacks();
     for (const UnderProtocol& once : all_) fewest = std::min(fewest, lacksAfter(*once.protocol));

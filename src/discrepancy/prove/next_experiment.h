@@ -26,8 +26,9 @@ simulation::SimulationSettings runProtocol(const std::string& protocol, simulati
 /// The explanations that an experiment is to decide between, and the rig that runs it.
 struct Contest {
   std::vector<std::vector<simulation::EnabledEffect>> explanations;
-  std::vector<double> weights;  ///< probability of each explanation if one of them is true
-  double unknown = 0;           ///< probability that none of them is true
+  std::vector<double> weights;        ///< probability of each explanation if one of them is true
+  double unknown = 0;                 ///< probability that none of them is true
+  std::vector<std::string> untested;  ///< effects that could not compete for lack of evidence
   AvailableEvidence at_hand;
   NoiseOfCycles noise;      ///< of the mean reading
   double peak = 620e3;      ///< highest pressure of the chamber [Pa]

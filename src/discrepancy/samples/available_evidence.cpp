@@ -101,6 +101,17 @@ bool AvailableEvidence::hasAll(const std::vector<simulation::Evidence>& evidence
   return std::all_of(evidence.begin(), evidence.end(), [this](simulation::Evidence e) { return has(e); });
 }
 
+std::set<simulation::Evidence> AvailableEvidence::lacking(
+    const std::vector<simulation::Evidence>& evidence) const {
+  std::set<simulation::Evidence> lacking;
+  for (const simulation::Evidence need : evidence) {
+    const bool can = need == simulation::Evidence::kTwoRampRates ||
+                     need == simulation::Evidence::kThermometer || need == simulation::Evidence::kManyCycles;
+    if (can && !has(need)) lacking.insert(need);
+  }
+  return lacking;
+}
+
 AvailableEvidence availableEvidence(const Measured& measured) {
   AvailableEvidence evidence;
   evidence.thermometer = !measured.temperature.empty();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <vector>
 
 #include "discrepancy/samples/measured.h"
@@ -17,6 +18,8 @@ struct AvailableEvidence {
   bool two_sessions = false;  ///< some mount was recorded in two recordings with an interruption between them
   bool has(simulation::Evidence evidence) const;
   bool hasAll(const std::vector<simulation::Evidence>& evidence) const;
+  /// What of it is lacking and a protocol of a chamber provides.
+  std::set<simulation::Evidence> lacking(const std::vector<simulation::Evidence>& evidence) const;
 };
 AvailableEvidence availableEvidence(const Measured& measured);
 

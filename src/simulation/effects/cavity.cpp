@@ -116,7 +116,7 @@ EffectEntry sealLeak() {
   };
   info.sign = SignRule::kPositive;
   info.depends_on = {Covariate::kPressure, Covariate::kTimeSinceReversal, Covariate::kClockTime};
-  info.collinear = {"creep", "drift", "hysteresis", "relaxation"};
+  info.collinear = {"creep", "drift", "hysteresis", "relaxation", "temperature"};
   info.experiment = Experiment::kStepAndHold;
   info.mixture = true;
   return {info, makeEffect<SealLeak>};

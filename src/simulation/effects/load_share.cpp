@@ -164,7 +164,7 @@ EffectEntry repositioning() {
   };
   info.depends_on = {Covariate::kMount, Covariate::kRow, Covariate::kColumn, Covariate::kPressure};
   info.needs = {Evidence::kMountLabels};
-  info.collinear = {"bending_gain", "bending_preload", "edge_stiffness", "session_offset"};
+  info.collinear = {"bending_gain", "bending_preload", "edge_stiffness", "session_offset", "temperature"};
   info.experiment = Experiment::kRemount;
   info.by_chance = true;
   info.detector = Detector::kMounts;

@@ -107,7 +107,7 @@ EffectEntry temperature() {
   info.sign = SignRule::kEither;
   info.depends_on = {Covariate::kTemperature, Covariate::kClockTime};
   info.needs = {Evidence::kThermometer};
-  info.collinear = {"drift", "creep", "wear", "break_in"};
+  info.collinear = {"drift", "creep", "wear", "break_in", "seal_leak", "repositioning"};
   info.experiment = Experiment::kTwoAmbients;
   info.slow = true;
   return {info, makeEffect<Temperature>};
