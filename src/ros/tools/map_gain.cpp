@@ -60,6 +60,21 @@ std::string temperatureGain(const fsr::calibration::Calibration& calibration) {
          " kPa with a factor for the temperature. train uses it unless --temperature none is given.";
 }
 
+// Halves the counts until they have twelve bits at most. A regression's table has an entry for each count, so
+// a board of sixteen bits would take sixteen times as long, for errors that are far above a count.
+void coarsen(std::vector<fsr::dataset::Recording>& recordings) {
+  constexpr int kFinest = 4095;  // full scale [counts]
+  for (const fsr::dataset::Recording& recording : recordings) {
+    if (recording.count_file) return;  // a long one, whose counts are not in memory
+  }
+  for (fsr::dataset::Recording& recording : recordings) {
+    int bits = 0;
+    while (recording.full_scale >> bits > kFinest) ++bits;
+    recording.full_scale = static_cast<std::uint16_t>(recording.full_scale >> bits);
+    for (std::uint16_t& count : recording.counts) count = static_cast<std::uint16_t>(count >> bits);
+  }
+}
+
 }  // namespace
 
 HistoryFamily historyFamilyOf(const std::vector<std::string>& effects) {
@@ -82,6 +97,7 @@ std::string mapGain(const std::vector<fsr::dataset::Recording>& recordings,
   const bool memory = proposed != HistoryFamily::kNone;
   if (!memory && !temperature) return "Nothing from this name: a calibration has no model of this effect.";
   fsr::calibration::CalibrationProblem problem{recordings, {}};
+  coarsen(problem.recordings);
   problem.options.scores = false;
   problem.options.threads = threads;
   problem.options.zero = fsr::calibration::ZeroChoice::kNone;  // the gain is that of the history alone

@@ -268,6 +268,11 @@ TEST(MapGain, IsThatOfTrainingWithAndWithout) {
   rig.loop = 0.08;
   const std::string gain = mapGain({test_support::memoryRecording(rig)}, {"hysteresis"}, 1);
   EXPECT_EQ(gain.find("On protocols that were left out, the error of the map falls from "), 0u) << gain;
+  fsr::dataset::Recording sixteen_bits = test_support::memoryRecording(rig);
+  const int factor = 65535 / sixteen_bits.full_scale;
+  for (std::uint16_t& count : sixteen_bits.counts) count = static_cast<std::uint16_t>(factor * count);
+  sixteen_bits.full_scale = 65535;
+  EXPECT_EQ(mapGain({sixteen_bits}, {"hysteresis"}, 1), gain);
   rig.loop = 0;
   EXPECT_EQ(mapGain({test_support::memoryRecording(rig)}, {"hysteresis"}, 1).find("Nothing. On protocols"),
             0u);
