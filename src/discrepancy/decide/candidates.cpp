@@ -94,6 +94,13 @@ std::string nameOf(const Explaining& explaining) {
   return text;
 }
 
+bool isSlow(const std::vector<simulation::Covariate>& covariates) {
+  return std::any_of(covariates.begin(), covariates.end(), [](simulation::Covariate c) {
+    return c == simulation::Covariate::kCycle || c == simulation::Covariate::kClockTime ||
+           c == simulation::Covariate::kMount;
+  });
+}
+
 bool within(const std::vector<simulation::Covariate>& covariates,
             const std::vector<simulation::Covariate>& own) {
   return std::all_of(covariates.begin(), covariates.end(), [&](simulation::Covariate c) {
@@ -135,10 +142,7 @@ void Candidates::gatherColumns(const StaticFit& fit) {
     signature.trace.resize(0);
   }
   for (const GenericTerms& terms : generic) {
-    const bool slow = std::any_of(terms.covariates.begin(), terms.covariates.end(), [](auto c) {
-      return c == simulation::Covariate::kCycle || c == simulation::Covariate::kClockTime;
-    });
-    explanations_.push_back({{}, {{}}, terms.covariates, slow});
+    explanations_.push_back({{}, {{}}, terms.covariates, isSlow(terms.covariates)});
     Form& form = explanations_.back().forms.front();
     for (const Trace& column : terms.columns) {
       form.columns.push_back(next);

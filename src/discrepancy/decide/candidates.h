@@ -40,10 +40,13 @@ struct Explaining {
 /// "creep", "creep + drift", "pressure_rate x curvature".
 std::string nameOf(const Explaining& explaining);
 
-/// Whether each of the covariates, except curvature, is among `own`, those that an explanation depends on. Any
-/// effect may be stronger on one surface than on another.
+/// Whether each of the covariates, except curvature, is among `own`, those that an explanation depends on.
+/// Any effect may be stronger on one surface than on another.
 bool within(const std::vector<simulation::Covariate>& covariates,
             const std::vector<simulation::Covariate>& own);
+
+/// Whether what depends on these covariates changes from cycle to cycle, or from mount to mount.
+bool isSlow(const std::vector<simulation::Covariate>& covariates);
 
 /// The explanations that compete for what the static curves leave of the common trace.
 class Candidates {

@@ -369,13 +369,8 @@ std::vector<std::string> untestedBeside(const std::string& id, const Measured& m
                                         const std::vector<std::string>& leave_out) {
   const AvailableEvidence evidence = availableEvidence(measured);
   const auto& explanations = candidates.explanations();
-  const auto& own = measured.info(id).depends_on;
   std::vector<std::string> untested;
-  const bool slow = std::any_of(own.begin(), own.end(), [](simulation::Covariate c) {
-    return c == simulation::Covariate::kCycle || c == simulation::Covariate::kClockTime ||
-           c == simulation::Covariate::kMount;
-  });
-  if (!slow) return untested;
+  if (!isSlow(measured.info(id).depends_on)) return untested;
   for (const simulation::EffectEntry& entry : measured.effects().entries()) {
     const simulation::EffectInfo& info = entry.info;
     const bool competed = std::any_of(explanations.begin(), explanations.end(), [&](const Explaining& one) {
