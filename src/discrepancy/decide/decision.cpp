@@ -47,7 +47,7 @@ class Verdicts {
   void tellRest();
   void addPartners(const Ids& ids);
   void addPartner(const std::string& id);
-  void addUntested(const Ids& ids, const std::string& id);
+  void addUntested(const Ids& ids, const std::string& id, bool proved);
   void listCandidates();
   void listCovariates();
   void listSmallestSeen();
@@ -172,10 +172,11 @@ void Verdicts::addPartners(const Ids& ids) {
   const AvailableEvidence evidence = availableEvidence(measured_);
   for (const std::string& id : ids) {
     const simulation::EffectInfo& info = measured_.info(id);
-    if (!evidence.hasAll(info.needs)) {
+    const bool proved = evidence.hasAll(info.needs);
+    if (!proved) {
       for (const std::string& other : info.collinear) addPartner(other);
     }
-    addUntested(ids, id);
+    addUntested(ids, id, proved);
   }
 }
 
@@ -188,9 +189,8 @@ void Verdicts::addPartner(const std::string& id) {
 }
 
 // Explanations in which an effect that could not compete takes the place of one that did. Beside one that
-// lacks no evidence, generic terms of its covariates must stand for it.
-void Verdicts::addUntested(const Ids& ids, const std::string& id) {
-  const bool proved = availableEvidence(measured_).hasAll(measured_.info(id).needs);
+// lacks no evidence (`proved`), generic terms of its covariates must stand for it.
+void Verdicts::addUntested(const Ids& ids, const std::string& id, bool proved) {
   const auto& generic = appraisal_.generic;
   for (const std::string& other : untestedBeside(id, measured_, candidates_, base_, options_.leave_out)) {
     const auto stands = [&](std::size_t e) {
