@@ -14,19 +14,35 @@ namespace {
 
 // Points of a taxel's curve, and the fewest scans at each.
 constexpr std::size_t kPoints = 24, kScansAtPoint = 12;
+// Scans of a group with no more scans between them belong to one pass: noise leads out of a group and back.
+constexpr std::uint32_t kScansBetweenPasses = 12;
 constexpr double kLeastRange = 0.5;  // of the median range: least unit
 
 // Scans of a stay by ascending median reading, in groups of about equal size. A part of the groups divides
-// the scans evenly, the other part the readings: a sheet may rest for long.
+// the scans evenly, the other part the readings: a sheet may rest for long. All passes through a group have
+// the same weight: a fault that lasts through one slow cycle does not outweigh the fast ones beside it.
 struct Groups {
   std::vector<std::uint32_t> scans;
+  std::vector<float> weight;      // of each of `scans`; their sum is 1 in each pass
   std::vector<std::size_t> ends;  // of each group in `scans`
 };
+
+// Puts the scans from .. to - 1 in the order of time, and weighs them.
+void weighPasses(Groups& groups, std::size_t from, std::size_t to) {
+  std::vector<std::uint32_t>& scans = groups.scans;
+  std::sort(scans.begin() + from, scans.begin() + to);
+  for (std::size_t first = from, k = from + 1; k <= to; ++k) {
+    if (k < to && scans[k] - scans[k - 1] <= kScansBetweenPasses) continue;
+    std::fill(groups.weight.begin() + first, groups.weight.begin() + k, 1 / float(k - first));
+    first = k;
+  }
+}
 
 Groups groupsOf(const std::vector<float>& median) {
   const std::size_t scans = median.size();
   Groups groups;
   groups.scans.resize(scans);
+  groups.weight.resize(scans);
   std::vector<std::uint32_t>& order = groups.scans;
   std::iota(order.begin(), order.end(), 0u);
   std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return median[a] < median[b]; });
@@ -39,6 +55,8 @@ Groups groupsOf(const std::vector<float>& median) {
     groups.ends.push_back(k + 1);
     from = k + 1;
   }
+  for (std::size_t k = 0; k < groups.ends.size(); ++k)
+    weighPasses(groups, k == 0 ? 0 : groups.ends[k - 1], groups.ends[k]);
   return groups;
 }
 
@@ -50,31 +68,37 @@ double middleMean(std::vector<double>& values) {
   return std::accumulate(values.begin() + from, values.begin() + to, 0.0) / double(to - from);
 }
 
-// Mean of the values around the shortest interval that holds half of them: what less than half of the values
-// do, anywhere, does not count. Source: D. Andrews et al., Robust estimates of location, Princeton 1972
+struct Weighed {
+  double value = 0, weight = 0;
+};
+
+// Mean of the values around the shortest interval that holds half of their weight: what less than half of it
+// does, anywhere, does not count. Source: D. Andrews et al., Robust estimates of location, Princeton 1972
 // (shorth), followed by one step of rejection.
-double mostUsual(std::vector<double>& values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
+double mostUsual(std::vector<Weighed>& values) {
+  std::sort(values.begin(), values.end(), [](auto& a, auto& b) { return a.value < b.value; });
+  double half = 0, inside = 0;
+  for (const Weighed& one : values) half += one.weight / 2;
   double width = std::numeric_limits<double>::infinity();
-  std::size_t first = 0, last = 0;  // where the shortest intervals begin
-  for (std::size_t i = 0; i + half < values.size(); ++i) {
-    const double now = values[i + half] - values[i];
-    if (now < width) first = i;
-    if (now <= width) last = i;
+  double low = 0, high = 0;  // centre of the first and of the last of the shortest intervals
+  for (std::size_t i = 0, end = 0; i < values.size(); inside -= values[i++].weight) {
+    while (end < values.size() && inside <= half) inside += values[end++].weight;
+    if (inside <= half) break;
+    const double now = values[end - 1].value - values[i].value;
+    const double centre = (values[end - 1].value + values[i].value) / 2;
+    if (now < width) low = centre;
+    if (now <= width) high = centre;
     width = std::min(now, width);
   }
-  const std::size_t from = (first + last) / 2;
-  const double centre = (values[from] + values[from + half]) / 2;
   // Half of the values of a normal distribution lie within 0.674 standard deviations.
-  const double reach = 3 * std::max(width, values[last + half] - values[first]) / (2 * 0.674);
-  double sum = 0, number = 0;
-  for (const double value : values) {
-    if (std::abs(value - centre) > reach) continue;
-    sum += value;
-    ++number;
+  const double centre = (low + high) / 2, reach = 3 * (width + high - low) / (2 * 0.674);
+  double sum = 0, weights = 0;
+  for (const Weighed& one : values) {
+    if (std::abs(one.value - centre) > reach) continue;
+    sum += one.weight * one.value;
+    weights += one.weight;
   }
-  return sum / number;
+  return sum / weights;
 }
 
 // Readings of the taxels of a stay at some median readings.
@@ -144,24 +168,29 @@ void CourseBuilder::fit(StayCourses& courses) {
   Curves curves{Eigen::ArrayXd::Zero(points), Eigen::ArrayXXd::Zero(taxels, points),
                 Eigen::ArrayXd::Zero(taxels)};
   // Calls use(k, values) for the values of the scans in each group.
-  std::vector<double> values, responses;
-  const auto eachGroup = [&](auto valueOf, auto use) {
+  std::vector<Weighed> values;
+  std::vector<double> responses;
+  const auto eachGroup = [&](const std::vector<float>& of_scans, auto use) {
     for (std::size_t k = 0, i = 0; k < groups.ends.size(); ++k) {
-      for (values.clear(); i < groups.ends[k]; ++i) values.push_back(double(valueOf(groups.scans[i])));
+      for (values.clear(); i < groups.ends[k]; ++i)
+        values.push_back({double(of_scans[groups.scans[i]]), double(groups.weight[i])});
       use(static_cast<Eigen::Index>(k));
     }
   };
-  eachGroup([&](std::size_t i) { return courses.place[i]; },
-            [&](Eigen::Index k) {
-              curves.at[k] = std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
-            });
+  eachGroup(courses.place, [&](Eigen::Index k) {
+    double weights = 0;
+    for (const Weighed& one : values) {
+      curves.at[k] += one.weight * one.value;
+      weights += one.weight;
+    }
+    curves.at[k] /= weights;
+  });
   std::vector<float> readings(courses.scans());  // the groups jump in time; in a file that would be slow
   for (Eigen::Index t = 0; t < taxels; ++t) {
     if (!sheet_.used[t]) continue;
     TaxelCourse course(courses, t);
     for (std::size_t i = 0; i < readings.size(); ++i) readings[i] = static_cast<float>(course.reading(i));
-    eachGroup([&](std::size_t i) { return readings[i]; },
-              [&](Eigen::Index k) { curves.value(t, k) = mostUsual(values); });
+    eachGroup(readings, [&](Eigen::Index k) { curves.value(t, k) = mostUsual(values); });
     responses.push_back(curves.response[t] = responseOf(curves.at, curves.value.row(t)));
   }
   if (points == 1) {  // a constant

@@ -14,7 +14,10 @@ using map::taxel_flag::kDead;
 using map::taxel_flag::kStuck;
 
 std::vector<Fault> faultsOf(const dataset::Recording& recording) {
-  Sheet sheet{recording.layout, double(recording.full_scale), {}, std::vector<bool>(recording.layout.size.taxels(), true)};
+  Sheet sheet{recording.layout,
+              double(recording.full_scale),
+              {},
+              std::vector<bool>(recording.layout.size.taxels(), true)};
   sheet.stays.push_back({&recording, 0, recording.scans(), 0, 0, {}});
   for (std::size_t i = 0; i < recording.scans(); ++i)
     sheet.stays[0].rising.push_back(i > 0 && recording.pressure[i] > recording.pressure[i - 1]);
@@ -48,6 +51,27 @@ TEST(FaultsOfASheet, AreNamedWithTheirTimes) {
 
 TEST(FaultsOfASheet, AreOfNoKindWhereTheTaxelStillFollowsTheLoad) {
   EXPECT_TRUE(faultsOf(failing({7}, [](int count) { return count / 2; })).empty());
+}
+
+// The slow cycle, in which the taxel keeps its reading, has most of the scans.
+TEST(FaultsOfASheet, AreFoundWhereASlowCycleOutweighsTheOthers) {
+  test_support::SyntheticRig rig;
+  rig.size = {4, 5};
+  dataset::Recording recording = test_support::syntheticRecording(rig);
+  rig.scans_per_cycle *= 10;
+  rig.cycles = 1;
+  const dataset::Recording slow = test_support::syntheticRecording(rig);
+  const double end = recording.time.back() + 1 / rig.rate;
+  for (const double time : slow.time) recording.time.push_back(end + time);
+  recording.counts.insert(recording.counts.end(), slow.counts.begin(), slow.counts.end());
+  recording.pressure.insert(recording.pressure.end(), slow.pressure.begin(), slow.pressure.end());
+  recording.condition.resize(recording.scans(), 0);
+  for (std::size_t i = recording.scans() - 950; i < recording.scans() - 50; ++i)
+    recording.counts[i * 20 + 13] = 1400;
+  const std::vector<Fault> faults = faultsOf(recording);
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_TRUE(faults[0].kind == FaultKind::kStuckTaxels);
+  EXPECT_NEAR(faults[0].share, 900.0 / double(recording.scans()), 0.05);
 }
 
 // The median of a line counts, so one taxel makes no line.
