@@ -217,15 +217,22 @@ void Search::sharpen() {
   appraisal_ = appraise(design_, null_, explanations_, options_);
 }
 
+// A slow effect beside a fast one lies in what changes from cycle to cycle. What the fast one closes within
+// the cycles is no measure of it, and neither is the error of the fast one's form, unless it is too large.
+bool Search::isSlowBesideFast(std::size_t second) {
+  const Weighed& first = preferred();
+  return explanations_[second].slow && !first.explaining.slow && !fitted(first).refined.implausible;
+}
+
 // Effects that may be a second one beside the preferred effect, the one that adds most first. Each of the two
 // must add to any form of the other: the error of a form looks like a second effect.
-std::vector<std::size_t> Search::seconds() const {
+std::vector<std::size_t> Search::seconds() {
   std::vector<std::size_t> chosen;
   for (std::size_t e = 0; e < appraisal_.additions.size(); ++e) {
     const Addition& adds = appraisal_.additions[e];
     const bool other = explanations_[e].single() && explanations_[e].ids != preferred().explaining.ids;
-    if (other && adds.nats > appraisal_.null_score && adds.closes >= options_.second_adds)
-      chosen.push_back(e);
+    const bool enough = adds.closes >= options_.second_adds || isSlowBesideFast(e);
+    if (other && enough && adds.nats > appraisal_.null_score) chosen.push_back(e);
   }
   std::sort(chosen.begin(), chosen.end(), [&](std::size_t a, std::size_t b) {
     return appraisal_.additions[a].nats > appraisal_.additions[b].nats;
@@ -242,12 +249,23 @@ std::vector<std::size_t> Search::seconds() const {
   return chosen;
 }
 
+// What generic terms add to the preferred effect at most, among those that a second effect competes with.
+double Search::genericBeside(bool slow_beside_fast) const {
+  double most = 0;
+  for (std::size_t e = 0; e < appraisal_.additions.size(); ++e) {
+    if (explanations_[e].generic() && (explanations_[e].slow || !slow_beside_fast))
+      most = std::max(most, appraisal_.additions[e].nats);
+  }
+  return most;
+}
+
 // Pairs of the preferred effect with a second one. A pair must be better than the preferred effect with any
 // generic terms.
 void Search::pairUp() {
   if (appraisal_.credible.empty() || !refuted()) return;
   const Weighed first = preferred();
   const std::size_t singles = explanations_.size();
+  std::vector<double> generic;  // of each pair
   const Fitted alone = fitted(first);
   if (alone.refined.effects.empty()) return;
   for (const std::size_t e : seconds()) {
@@ -266,17 +284,14 @@ void Search::pairUp() {
       if (!std::count(pair.covariates.begin(), pair.covariates.end(), c)) pair.covariates.push_back(c);
     }
     explanations_.push_back(pair);
+    generic.push_back(genericBeside(isSlowBesideFast(e)));
   }
   if (explanations_.size() == singles) return;
-  double generic = 0;
-  for (std::size_t e = 0; e < singles; ++e) {
-    if (explanations_[e].generic()) generic = std::max(generic, appraisal_.additions[e].nats);
-  }
   design_ = cycleDesign(measured_, fit_, common_.all, columns_, always_);
   Appraisal with = appraise(design_, null_, explanations_, options_);
-  if (!with.credible.empty() && with.credible.front() >= singles &&
-      with.all[with.credible.front()].total >= first.total + generic)
-    appraisal_ = std::move(with);
+  if (with.credible.empty() || with.credible.front() < singles) return;
+  const std::size_t best = with.credible.front();
+  if (with.all[best].total >= first.total + generic[best - singles]) appraisal_ = std::move(with);
 }
 
 void Search::run() {
@@ -336,10 +351,27 @@ void Search::measureSizes() {
   for (Weighed& one : appraisal_.all) one.at_map = atMap(explained(one));
 }
 
+// An effect that would have to be larger than its sources know does not exclude those that resemble it, that
+// would not, and that are no wrong form either.
+void Search::keepLikeTooLarge() {
+  const Weighed& first = preferred();
+  if (!first.explaining.single() || !fitted(first).refined.implausible) return;
+  const auto& like = measured_.info(first.explaining.ids.front()).collinear;
+  auto& set = appraisal_.credible;
+  for (std::size_t e = 0; e < appraisal_.all.size(); ++e) {
+    const Weighed& one = appraisal_.all[e];
+    if (!one.contends || !one.explaining.single() || one.closes < options_.wrong_form_below) continue;
+    const bool resembles = std::count(like.begin(), like.end(), one.explaining.ids.front()) > 0;
+    if (!resembles || std::count(set.begin(), set.end(), e)) continue;
+    if (!fitted(one).refined.implausible) set.push_back(e);
+  }
+}
+
 // Where the score does not decide, what is known beforehand does. An effect that would have to be larger than
 // its sources know comes last. Before it come effects that need evidence which was not recorded: nothing here
 // could have refuted them, while the others were put to the test.
 void Search::putLikelyFirst() {
+  keepLikeTooLarge();
   const AvailableEvidence evidence = availableEvidence(measured_);
   const auto tested = [&](std::size_t e) {
     const auto& ids = appraisal_.all[e].explaining.ids;

@@ -56,13 +56,16 @@ class Search {
   void sharpen();
   void pairUp();
   std::vector<SingleColumn> startsOf(const Weighed& weighed) const;
-  std::vector<std::size_t> seconds() const;
+  bool isSlowBesideFast(std::size_t second);
+  std::vector<std::size_t> seconds();
+  double genericBeside(bool slow_beside_fast) const;
   simulation::EnabledEffect begin(const SingleColumn& column) const;
   Fitted fitSingle(const Weighed& weighed) const;
   std::vector<Eigen::Index> addEnabled();
   Eigen::Index addColumn(const Trace& trace);
   double meanSlope() const;
   void measureSizes();
+  void keepLikeTooLarge();
   void dropSizesOfNone();
   void dropPhases();
   Trace withoutEnabled(const Trace& trace, const Trace& part) const;
