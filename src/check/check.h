@@ -28,9 +28,10 @@ struct MapLimits {
   double taxel_share = 0.05;   ///< share of suspicious taxels (ratio)
 };
 
-/// Errors of the readings of one surface or bag, or of all together. Without readings the values are NaN.
+/// Errors of the readings of one surface, bag or cycle, or of all together. Without readings the values are
+/// NaN.
 struct CheckedReadings {
-  std::string name;             ///< of the surface or bag; empty = all together
+  std::string name;             ///< of the surface or bag; empty = neither
   std::uint64_t readings = 0;   ///< and how many of them were ...
   std::uint64_t within = 0;     ///< off by one stated deviation at most
   std::uint64_t beyond = 0;     ///< outside the range of training
@@ -39,7 +40,8 @@ struct CheckedReadings {
   double square = 0;            ///< sum of squares [Pa^2]
   double expected = 0;          ///< likewise of the stated deviations [Pa^2]
 
-  void add(double difference, double deviation, std::uint16_t flags);
+  void add(double difference, double deviation, std::uint16_t flags = 0);
+  void add(const CheckedReadings& more);
   double share(std::uint64_t of_readings) const { return double(of_readings) / double(readings); }
   double expectedRmse() const { return std::sqrt(expected / double(readings)); }  ///< [Pa]
   double rmse() const { return std::sqrt(square / double(readings)); }            ///< [Pa]

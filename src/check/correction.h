@@ -57,16 +57,6 @@ struct CycleReadings {
 CycleReadings gatherCycles(const calibration::Calibration& parent,
                            const std::vector<dataset::Recording>& recordings);
 
-/// Squared errors of readings.
-struct SquaredErrors {
-  double sum = 0;       ///< [Pa^2]
-  double expected = 0;  ///< of the stated deviations [Pa^2]
-  std::size_t readings = 0;
-
-  void add(const SquaredErrors& more);
-  double rmse() const;
-};
-
 /// Gain and offset by least squares of the pressure, with any cycles left out.
 ///
 /// A change is fitted where it happens, in the counts before the table. Wear multiplies the conductance of
@@ -98,7 +88,7 @@ class CorrectionFit {
   const CycleReadings& readings() const { return readings_; }
 
   /// Errors of the readings of one cycle, if the sheet has changed so.
-  SquaredErrors errors(const std::vector<ReadingChange>& changes, std::size_t cycle) const;
+  CheckedReadings errors(const std::vector<ReadingChange>& changes, std::size_t cycle) const;
 
  private:
   // Shift [counts] and stretch (ratio): counts = pivot + shift + (1 + stretch) (counts before - pivot).

@@ -16,11 +16,11 @@ constexpr ChangeModel kModels[kChangeModels] = {ChangeModel::kNone, ChangeModel:
                                                 ChangeModel::kTaxels};
 
 using Cycles = CorrectionFit::Cycles;
-using Held = std::array<std::vector<SquaredErrors>, kChangeModels>;  // of each cycle that was left out
+using Held = std::array<std::vector<CheckedReadings>, kChangeModels>;  // of each cycle that was left out
 
-SquaredErrors total(const std::vector<SquaredErrors>& errors) {
-  SquaredErrors sum;
-  for (const SquaredErrors& one : errors) sum.add(one);
+CheckedReadings total(const std::vector<CheckedReadings>& errors) {
+  CheckedReadings sum;
+  for (const CheckedReadings& one : errors) sum.add(one);
   return sum;
 }
 
@@ -39,15 +39,15 @@ Held leaveEachOut(const CorrectionFit& fit, const Cycles& cycles) {
 std::size_t best(const Held& held, ChangeModel richest) {
   std::size_t best = 0;
   for (std::size_t m = 1; m <= static_cast<std::size_t>(richest); ++m) {
-    if (total(held[m]).sum < total(held[best]).sum) best = m;
+    if (total(held[m]).square < total(held[best]).square) best = m;
   }
   return best;
 }
 
-double oneSidedP(const std::vector<SquaredErrors>& none, const std::vector<SquaredErrors>& choice) {
+double oneSidedP(const std::vector<CheckedReadings>& none, const std::vector<CheckedReadings>& choice) {
   std::vector<double> before, after;
   for (std::size_t i = 0; i < none.size(); ++i) {
-    if (none[i].readings == 0 || !(none[i].sum > 0) || !(choice[i].sum > 0)) continue;
+    if (none[i].readings == 0 || !(none[i].square > 0) || !(choice[i].square > 0)) continue;
     before.push_back(2 * std::log(none[i].rmse()));
     after.push_back(2 * std::log(choice[i].rmse()));
   }
@@ -62,26 +62,15 @@ double oneSidedP(const std::vector<SquaredErrors>& none, const std::vector<Squar
 
 }  // namespace
 
-void SquaredErrors::add(const SquaredErrors& more) {
-  sum += more.sum;
-  expected += more.expected;
-  readings += more.readings;
-}
-
-double SquaredErrors::rmse() const {
-  return std::sqrt(sum / double(readings));
-}
-
 CorrectionChoice chooseCorrection(const CorrectionFit& fit, ChangeModel richest) {
   const Cycles all(fit.readings().cycles(), true);
   const Held held = leaveEachOut(fit, all);
   CorrectionChoice choice;
   for (std::size_t m = 0; m < kChangeModels; ++m) choice.rmse[m] = total(held[m]).rmse();
-  const SquaredErrors none = total(held[0]);
-  choice.expected = std::sqrt(none.expected / double(none.readings));
+  choice.expected = total(held[0]).expectedRmse();
   choice.model = kModels[best(held, richest)];
   choice.changes = fit.fit(choice.model, all);
-  std::vector<SquaredErrors> nested;
+  std::vector<CheckedReadings> nested;
   for (std::size_t out = 0; out < all.size(); ++out) {
     Cycles rest = all;
     rest[out] = false;
@@ -185,7 +174,7 @@ MountTest testMounts(const calibration::Calibration& parent, const CorrectionFit
 }
 
 double errorWithinMounts(const CorrectionFit& fit) {
-  SquaredErrors sum;
+  CheckedReadings sum;
   for (const auto& [mount, cycles] : mountsOf(fit.readings())) {
     if (std::count(cycles.begin(), cycles.end(), true) < 2) continue;
     for (std::size_t out = 0; out < cycles.size(); ++out) {

@@ -206,8 +206,8 @@ std::vector<ReadingChange> CorrectionFit::fit(ChangeModel model, const Cycles& c
   return result;
 }
 
-SquaredErrors CorrectionFit::errors(const std::vector<ReadingChange>& changes, std::size_t cycle) const {
-  SquaredErrors errors;
+CheckedReadings CorrectionFit::errors(const std::vector<ReadingChange>& changes, std::size_t cycle) const {
+  CheckedReadings errors;
   const CycleReadings::Stay& stay = readings_.stayOf(cycle);
   for (std::size_t taxel = 0; taxel < taxels_.size(); ++taxel) {
     const std::vector<Reading>& readings = readings_.cycle[cycle][taxel];
@@ -216,12 +216,9 @@ SquaredErrors CorrectionFit::errors(const std::vector<ReadingChange>& changes, s
     const double zero = zeroOf(stay, taxel, changes[taxel], pivot_).value;
     for (const Reading& reading : readings) {
       const double before = changes[taxel].before(reading.code);
-      const double error = AnswerTable::at(answer.pressure, before) - zero - double(reading.pressure);
-      const double deviation = AnswerTable::at(answer.deviation, before);
-      errors.sum += error * error;
-      errors.expected += deviation * deviation;
+      errors.add(AnswerTable::at(answer.pressure, before) - zero - double(reading.pressure),
+                 AnswerTable::at(answer.deviation, before));
     }
-    errors.readings += readings.size();
   }
   return errors;
 }

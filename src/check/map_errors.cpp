@@ -34,8 +34,7 @@ constexpr std::size_t kFirstProtocol = kUnsettled + kUnsettledNames.size();
 
 // Of the readings of one part of the model of the sheet's memory.
 struct PartSums {
-  std::uint64_t readings = 0, within = 0;
-  double static_square = 0, square = 0;  // [Pa^2]
+  CheckedReadings fixed, live;
 };
 
 // The live map of a recording: as a node shows it, or without the model of memory or the tare.
@@ -162,7 +161,7 @@ class Checker {
 
   void addUntared(const std::uint16_t* counts, double pressure, const LiveMap& live) {
     for (std::size_t i = 0; i < taxels_.size(); ++i) {
-      if (live.hasValue(i, counts[i])) untared_.add(live.map.pressure[i] - pressure, 0, 0);
+      if (live.hasValue(i, counts[i])) untared_.add(live.map.pressure[i] - pressure, 0);
     }
   }
 
@@ -171,11 +170,9 @@ class Checker {
     for (std::size_t i = 0; i < taxels_.size(); ++i) {
       if (!live.hasValue(i, counts[i])) continue;
       const double before = fixed.map.pressure[i] - pressure, error = live.map.pressure[i] - pressure;
-      const auto add_to = [&, within = std::abs(error) <= live.map.deviation[i]](std::size_t part) {
-        ++parts_[part].readings;
-        parts_[part].within += within;
-        parts_[part].static_square += before * before;
-        parts_[part].square += error * error;
+      const auto add_to = [&](std::size_t part) {
+        parts_[part].fixed.add(before, 0);
+        parts_[part].live.add(error, live.map.deviation[i]);
       };
       add_to(0);
       if ((live.map.flags[i] & map::taxel_flag::kHistoryShort) != 0) {
@@ -191,14 +188,12 @@ class Checker {
   }
 
   void addPart(std::size_t part, std::vector<HistoryScore::Part>& history) const {
-    const PartSums& sums = parts_[part];
-    if (sums.readings == 0) return;
+    const CheckedReadings& live = parts_[part].live;
+    if (live.readings == 0) return;
     const std::string name = part >= kFirstProtocol ? protocols_.names[part - kFirstProtocol]
                              : part >= kUnsettled   ? kUnsettledNames[part - kUnsettled]
                                                     : calibration::historyPartName(part);
-    const auto n = double(sums.readings);
-    history.push_back({name, sums.readings, std::sqrt(sums.static_square / n), std::sqrt(sums.square / n),
-                       double(sums.within) / n});
+    history.push_back({name, live.readings, parts_[part].fixed.rmse(), live.rmse(), live.share(live.within)});
   }
 
   void noteFailed(const std::vector<std::uint16_t>& flags) {
@@ -328,6 +323,16 @@ void CheckedReadings::add(double difference, double deviation, std::uint16_t fla
   error += difference;
   square += difference * difference;
   expected += deviation * deviation;
+}
+
+void CheckedReadings::add(const CheckedReadings& more) {
+  readings += more.readings;
+  within += more.within;
+  beyond += more.beyond;
+  unsettled += more.unsettled;
+  error += more.error;
+  square += more.square;
+  expected += more.expected;
 }
 
 MapErrors errorsOfMap(const Calibration& calibration, const std::vector<Recording>& recordings,

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
-#include <ctime>
 #include <map>
 #include <set>
 #include <tuple>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "fsr_pressure_map/statistics/metrics.h"
 #include "statistics/samples.h"
 
 namespace fsr::check {
@@ -84,13 +84,6 @@ void requireSurface(const std::vector<SheetState>& states, const std::string& na
                              "\"; the usual one is \"" + usualSurface(states) + "\"");
 }
 
-// Mean of the values that are known; kUnknown where none is.
-double meanOfKnown(std::vector<double> values) {
-  values.erase(std::remove_if(values.begin(), values.end(), [](double value) { return std::isnan(value); }),
-               values.end());
-  return values.empty() ? kUnknown : statistics::meanOf(values);
-}
-
 // The states of one day and source as a row.
 Row rowOf(const std::vector<const SheetState*>& states, const std::string& surface) {
   Row row;
@@ -105,8 +98,8 @@ Row rowOf(const std::vector<const SheetState*>& states, const std::string& surfa
     dead.insert(state->dead.begin(), state->dead.end());
     stuck.insert(state->stuck.begin(), state->stuck.end());
   }
-  row.temperature = meanOfKnown(temperature);
-  row.error = meanOfKnown(error);
+  row.temperature = statistics::spreadOf(temperature).mean;
+  row.error = statistics::spreadOf(error).mean;
   row.dead = {dead.begin(), dead.end()};
   row.stuck = {stuck.begin(), stuck.end()};
   for (double SurfaceState::*const member :
@@ -118,7 +111,7 @@ Row rowOf(const std::vector<const SheetState*>& states, const std::string& surfa
         if (surface.empty() || on.surface == surface) values.push_back(on.*member);
       }
     }
-    row.*member = meanOfKnown(values);
+    row.*member = statistics::spreadOf(values).mean;
   }
   return row;
 }
@@ -154,7 +147,7 @@ std::vector<Column> columnsOf(const std::vector<Row>& rows, double level) {
       column.rows.push_back(r);
       column.values.push_back(rows[r].*kind.value);
     }
-    if (std::isnan(meanOfKnown(column.values))) continue;
+    if (std::isnan(statistics::spreadOf(column.values).mean)) continue;
     family[kind.calibration] += 1;
     columns.push_back(column);
   }

@@ -193,13 +193,7 @@ SheetState stateOf(const dataset::Recording& recording, const Calibration* first
   state.date_ns = recording.start_ns;
   state.layout = recording.layout;
   state.full_scale = recording.full_scale;
-  double sum = 0, known = 0;
-  for (const double temperature : recording.temperature) {
-    if (std::isnan(temperature)) continue;
-    sum += temperature;
-    known += 1;
-  }
-  if (known > 0) state.temperature = sum / known;
+  state.temperature = statistics::spreadOf(recording.temperature).mean;
   std::vector<std::uint8_t> ignored = recording.mask;
   ignored.resize(recording.layout.size.taxels(), 0);
   for (std::size_t c = 0; c < recording.conditions.size() && !recording.pressure.empty(); ++c) {

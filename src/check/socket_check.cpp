@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
+#include <set>
 
 #include "calibration/sources.h"
 #include "calibration/stages/temperature/temperature_course.h"
@@ -223,26 +223,19 @@ class SocketChecker {
   }
 
   // The longest period in which a taxel stays loaded and its reading varies by no more than static_range of
-  // its largest reading. Both ends only move forward; deques hold the extremes between them.
+  // its largest reading. Both ends only move forward.
   void followLoad(std::size_t taxel, double span, const DonDoff& events) {
     const std::vector<double> load = byCell(taxel, span, events);
-    std::deque<std::size_t> high, low;
+    std::multiset<double> loads;  // of the cells from `from` to `to`
     for (std::size_t from = 0, to = 0; to < load.size(); ++to) {
       if (!(load[to] >= kContactShare)) {  // also NaN
         from = to + 1;
-        high.clear();
-        low.clear();
+        loads.clear();
         continue;
       }
-      while (!high.empty() && load[high.back()] <= load[to]) high.pop_back();
-      while (!low.empty() && load[low.back()] >= load[to]) low.pop_back();
-      high.push_back(to);
-      low.push_back(to);
-      while (load[high.front()] - load[low.front()] > kStaticRange * load[high.front()]) {
-        ++from;
-        if (high.front() < from) high.pop_front();
-        if (low.front() < from) low.pop_front();
-      }
+      loads.insert(load[to]);
+      while (*loads.rbegin() - *loads.begin() > kStaticRange * *loads.rbegin())
+        loads.erase(loads.find(load[from++]));
       const double seconds = double(to - from + 1) * span;
       if (seconds > check_.longest.seconds) check_.longest = {seconds, double(from) * span, taxel};
     }
