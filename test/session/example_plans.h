@@ -1,12 +1,15 @@
 #pragma once
 
-#include <functional>
 #include <string>
 
 #include "session/plan.h"
+#include "support/holds.h"
 #include "support/source_dir.h"
 
 namespace example_plans {
+
+using test_support::holds;
+using test_support::refusal;
 
 inline std::string folder() {
   return test_support::sourceDir() + "/config/surfaces";
@@ -25,18 +28,5 @@ constexpr char kSmall[] =
     "plan: small\n"
     "surfaces: [{surface: flat}]\n"
     "program: [{cycles: {peak: 600000, rate: 20000, dwell_peak: 1, dwell_rest: 1, cycles: 2}}]\n";
-
-inline std::string messageOf(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const fsr::settings::InputError& error) {
-    return error.what();
-  }
-  return "no error";
-}
-
-inline bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 }  // namespace example_plans

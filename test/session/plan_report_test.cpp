@@ -6,16 +6,15 @@
 
 #include "dataset/conditioning.h"
 #include "session/example_plans.h"
+#include "settings/text.h"
 
 namespace fsr::session {
 namespace {
 
 using namespace example_plans;
 
-std::string joined(const std::vector<std::string>& sentences) {
-  std::string text;
-  for (const std::string& sentence : sentences) text += sentence + "\n";
-  return text;
+std::string limitsText(const SessionPlan& plan) {
+  return settings::joined(limitsOf(plan), "\n");
 }
 
 // What `discrepancy` itself names in recordings of the shipped plans with these properties.
@@ -39,12 +38,12 @@ TEST(PlanReport, NamesTheEffectsThatEachShippedPlanTells) {
 }
 
 TEST(PlanReport, SaysWhatThePapersProtocolCannotTell) {
-  const std::string limits = joined(limitsOf(shipped("paper")));
-  for (const char* part : {"another mount: no surface is mounted twice", "hysteresis", "memory of the sheet",
-                           "tare", "temperature", "not conditioned", "below 0 and above 20 1/m",
-                           "above 620 kPa", "at most 85.7 % of new mounts (6 mounts); 95 % needs 19"})
-    EXPECT_TRUE(contains(limits, part)) << part << "\n" << limits;
-  EXPECT_FALSE(contains(limits, "between surfaces"));
+  const std::string limits = limitsText(shipped("paper"));
+  EXPECT_TRUE(
+      holds(limits, {"another mount: no surface is mounted twice", "hysteresis", "memory of the sheet",
+                     "tare", "temperature", "not conditioned", "below 0 and above 20 1/m", "above 620 kPa",
+                     "at most 85.7 % of new mounts (6 mounts); 95 % needs 19"}));
+  EXPECT_FALSE(holds(limits, {"between surfaces"}));
 }
 
 // Each piece of a plan that is left out costs what it is there for, and nothing is lacking beside itself.
@@ -74,7 +73,7 @@ TEST(PlanReport, SaysWhatAPlanLacksBesideALongerOne) {
     SessionPlan less = whole;
     one.leave_out(less);
     const std::string report = planReport(less);  // "... (surfaces: 1)" is told, but less well
-    EXPECT_TRUE(contains(joined(limitsOf(less)), one.lost) || contains(report, std::string(one.lost) + ")"))
+    EXPECT_TRUE(holds(limitsText(less), {one.lost}) || holds(report, {std::string(one.lost) + ")"}))
         << report;
   }
 }
@@ -82,16 +81,15 @@ TEST(PlanReport, SaysWhatAPlanLacksBesideALongerOne) {
 TEST(PlanReport, AsksFor19MountsForIntervalsOf95Percent) {
   SessionPlan plan = planFrom(kSmall);
   plan.surfaces[0].mounts = 17;
-  EXPECT_TRUE(contains(joined(limitsOf(plan)), "95 % needs"));
+  EXPECT_TRUE(holds(limitsText(plan), {"95 % needs"}));
   plan.surfaces[0].mounts = 18;
-  EXPECT_FALSE(contains(joined(limitsOf(plan)), "95 % needs"));
+  EXPECT_FALSE(holds(limitsText(plan), {"95 % needs"}));
 }
 
 TEST(PlanReport, SaysWhatIsNeeded) {
-  const std::string report = planReport(shipped("every_effect"));
-  for (const char* part : {"4 h 37 min", "Chamber: up to 682 kPa.", "A thermometer",
-                           "Break of 2 h 0 min behind mount 4.", "discrepancy can name", "They cannot tell:"})
-    EXPECT_TRUE(contains(report, part)) << part;
+  EXPECT_TRUE(holds(planReport(shipped("every_effect")),
+                    {"4 h 37 min", "Chamber: up to 682 kPa.", "A thermometer",
+                     "Break of 2 h 0 min behind mount 4.", "discrepancy can name", "They cannot tell:"}));
 }
 
 TEST(PlanReport, RoundsTimesUp) {

@@ -39,8 +39,8 @@ TEST_P(Proposal, FitsTheTimeUsesItAndCanBeRead) {
 }
 
 TEST_P(Proposal, NamesTheSmallestTimeThatWouldDo) {
-  const std::string message = messageOf([] { proposePlan(request(GetParam(), 3)); });
-  ASSERT_TRUE(contains(message, "--minutes is 3, but one cycle on flat takes ")) << message;
+  const std::string message = refusal([] { proposePlan(request(GetParam(), 3)); });
+  ASSERT_TRUE(holds(message, {"--minutes is 3, but one cycle on flat takes "}));
   const double least = std::stod(message.substr(message.rfind(' ') + 1));
   EXPECT_LE(sessionDuration(proposePlan(request(GetParam(), least)).plan), 60 * least);
   EXPECT_THROW(proposePlan(request(GetParam(), least - 0.1)), settings::InputError);
@@ -69,7 +69,7 @@ TEST(ProposalForDiscrepancy, WithAThermometerAndADayTellsAsMuchAsTheShippedPlan)
 TEST(ProposalForHistory, HasProtocolsToLeaveOutAtAnyLength) {
   for (const double minutes : {20, 60, 120}) {
     for (const std::string& limit : limitsOf(proposePlan(request(Purpose::kHistory, minutes)).plan))
-      EXPECT_FALSE(contains(limit, "one protocol")) << minutes;
+      EXPECT_FALSE(holds(limit, {"one protocol"})) << minutes;
   }
 }
 
@@ -93,7 +93,7 @@ TEST(ProposalForAPeak, FitsTheChamber) {
   EXPECT_NEAR(sessionDuration(plan), large, 0.02 * large);
   PlanRequest high = request(Purpose::kDiscrepancy, 90);
   high.peak = 750e3;
-  EXPECT_TRUE(contains(messageOf([&] { proposePlan(high); }), "--peak is 750"));
+  EXPECT_TRUE(holds(refusal([&] { proposePlan(high); }), {"--peak is 750"}));
   high.peak = 720e3;
   EXPECT_NO_THROW(proposePlan(high));
 }
