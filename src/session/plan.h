@@ -134,15 +134,10 @@ std::string planText(const SessionPlan& plan, const std::vector<std::string>& re
 
 /// What a session is wanted for, and what there is.
 struct PlanRequest {
-  Purpose purpose = Purpose::kPerCurvature;
-  double time = 0;                                    ///< that there is [s]
-  std::vector<matrix::Surface> surfaces;              ///< at least one
-  double peak = 620e3;                                ///< largest pressure to measure, gauge [Pa]
-  double chamber_limit = simulation::kChamberRating;  ///< [Pa]
-  double change = 180;                                ///< to put the sheet on the next surface [s]
-  bool thermometer = false;
-  std::uint64_t seed = 1;
-  matrix::MatrixSize matrix{7, 10};
+  SessionPlan like;                       ///< purpose, seed, thermometer, chamber_limit, change and matrix
+  double time = 0;                        ///< that there is [s]
+  std::vector<matrix::Surface> surfaces;  ///< at least one
+  double peak = 620e3;                    ///< largest pressure to measure, gauge [Pa]
 };
 
 struct ProposedPlan {

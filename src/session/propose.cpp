@@ -133,17 +133,11 @@ std::vector<simulation::ProgramPart> programOf(const PurposeTable& table, const 
 
 // A plan of this size with `surfaces` of them.
 SessionPlan planOf(const PlanRequest& request, const Size& size, std::size_t surfaces) {
-  const PurposeTable& table = tableFor(request.purpose);
+  SessionPlan plan = request.like;
+  const PurposeTable& table = tableFor(plan.purpose);
   const double by = request.peak / kFullPeak;
-  SessionPlan plan;
   plan.origin = "plan";
-  plan.name = name(request.purpose);
-  plan.purpose = request.purpose;
-  plan.seed = request.seed;
-  plan.thermometer = request.thermometer;
-  plan.chamber_limit = request.chamber_limit;
-  plan.change = request.change;
-  plan.matrix = request.matrix;
+  plan.name = name(plan.purpose);
   plan.conditioning.cycles = table.conditioning;
   plan.conditioning.rate = rounded(40e3 * by);
   plan.repeat_first = size.again;
@@ -161,17 +155,18 @@ SessionPlan planOf(const PlanRequest& request, const Size& size, std::size_t sur
   throw settings::InputError("--minutes is " + roundedText(request.time / 60, 4) + ", but one cycle on " +
                              smallest.surfaces.front().surface.name + " takes " + least +
                              " min with the conditioning, the rests and " +
-                             roundedText(request.change / 60, 2) +
+                             roundedText(request.like.change / 60, 2) +
                              " min to put the sheet on; give at least " + least);
 }
 
 void requirePeak(const PlanRequest& request) {
   const double share = Conditioning{}.share_of_peak;
-  if (share * request.peak <= request.chamber_limit) return;
+  if (share * request.peak <= request.like.chamber_limit) return;
   throw settings::InputError("--peak is " + roundedText(request.peak / 1e3) + ", but the conditioning at " +
                              roundedText(100 * share) + " % of it would pass the " +
-                             roundedText(request.chamber_limit / 1e3) + " kPa of the chamber; give at most " +
-                             roundedText(std::floor(request.chamber_limit / share / 1e3)));
+                             roundedText(request.like.chamber_limit / 1e3) +
+                             " kPa of the chamber; give at most " +
+                             roundedText(std::floor(request.like.chamber_limit / share / 1e3)));
 }
 
 }  // namespace
@@ -179,7 +174,7 @@ void requirePeak(const PlanRequest& request) {
 ProposedPlan proposePlan(const PlanRequest& request) {
   if (request.surfaces.empty()) throw settings::InputError("--surfaces is empty, but one surface is needed");
   requirePeak(request);
-  const std::vector<Size>& sizes = tableFor(request.purpose).sizes;
+  const std::vector<Size>& sizes = tableFor(request.like.purpose).sizes;
   const std::size_t all = request.surfaces.size();
   for (const Size& size : sizes) {
     for (std::size_t surfaces = all; surfaces >= std::min(all, size.surfaces); --surfaces) {

@@ -14,7 +14,7 @@ using namespace example_plans;
 
 PlanRequest request(Purpose purpose, double minutes) {
   PlanRequest request;
-  request.purpose = purpose;
+  request.like.purpose = purpose;
   request.time = 60 * minutes;
   for (const PlannedSurface& one : shipped("paper").surfaces) request.surfaces.push_back(one.surface);
   return request;
@@ -62,7 +62,7 @@ TEST(ProposalForDiscrepancy, In90MinutesKeepsWhatNamesALoopAndAMount) {
 
 TEST(ProposalForDiscrepancy, WithAThermometerAndADayTellsAsMuchAsTheShippedPlan) {
   PlanRequest day = request(Purpose::kDiscrepancy, 480);
-  day.thermometer = true;
+  day.like.thermometer = true;
   EXPECT_EQ(effectsToldBy(proposePlan(day).plan), effectsToldBy(shipped("every_effect")));
 }
 
@@ -84,7 +84,7 @@ TEST(ProposalPerCurvature, KeepsTheFlatAndTheMostBentSurfaceLongest) {
 TEST(ProposalForAPeak, FitsTheChamber) {
   PlanRequest small = request(Purpose::kDiscrepancy, 90);
   small.peak = 200e3;
-  small.chamber_limit = 230e3;
+  small.like.chamber_limit = 230e3;
   const SessionPlan plan = proposePlan(small).plan;
   EXPECT_NEAR(largestPeak(plan), 200e3, 1);
   EXPECT_LE(conditioningPeak(plan), 230e3);

@@ -49,24 +49,25 @@ std::string surfaceFolderOf(const fsr::settings::CommandLine& line) {
 
 plans::PlanRequest requestIn(const fsr::settings::CommandLine& line) {
   plans::PlanRequest request;
-  request.purpose = plans::purposeCalled(line.choice("for", plans::purposeNames(), line.requiredText("for")));
+  plans::SessionPlan& like = request.like;
+  like.purpose = plans::purposeCalled(line.choice("for", plans::purposeNames(), line.requiredText("for")));
   line.requiredText("minutes");
   request.time = 60 * line.number("minutes", 0, {0, 10080, "min"});
-  request.chamber_limit = 1e3 * line.number("chamber-limit", request.chamber_limit / 1e3,
-                                            {1, fsr::simulation::kChamberRating / 1e3, "kPa gauge"});
+  like.chamber_limit = 1e3 * line.number("chamber-limit", like.chamber_limit / 1e3,
+                                         {1, fsr::simulation::kChamberRating / 1e3, "kPa gauge"});
   request.peak = 1e3 * line.number("peak", request.peak / 1e3,
-                                   {1, request.chamber_limit / 1e3, "kPa gauge (--chamber-limit)"});
-  request.change = 60 * line.number("change", request.change / 60, {0, 1440, "min"});
-  request.thermometer = line.has("thermometer");
-  request.seed = static_cast<std::uint64_t>(line.integer("seed", 1, {0, 9e15, ""}));
-  request.matrix.rows =
+                                   {1, like.chamber_limit / 1e3, "kPa gauge (--chamber-limit)"});
+  like.change = 60 * line.number("change", like.change / 60, {0, 1440, "min"});
+  like.thermometer = line.has("thermometer");
+  like.seed = static_cast<std::uint64_t>(line.integer("seed", 1, {0, 9e15, ""}));
+  like.matrix.rows =
       static_cast<std::uint16_t>(line.integer("rows", 7, {1, fsr::matrix::kMaxMatrixSide, ""}));
-  request.matrix.columns =
+  like.matrix.columns =
       static_cast<std::uint16_t>(line.integer("columns", 10, {1, fsr::matrix::kMaxMatrixSide, ""}));
   const std::string folder = surfaceFolderOf(line);
   for (const std::string& name : line.list("surfaces", kSurfaces))
     request.surfaces.push_back(
-        plans::surfaceInFolder(name, folder, request.matrix, "--surfaces names \"" + name + "\""));
+        plans::surfaceInFolder(name, folder, like.matrix, "--surfaces names \"" + name + "\""));
   return request;
 }
 
@@ -87,7 +88,7 @@ void propose(const fsr::settings::CommandLine& line, std::ostream& out) {
   describe(proposed.plan, line, out);
   const double whole = plans::sessionDuration(proposed.whole);
   if (whole > plans::sessionDuration(proposed.plan))
-    out << "\nThe whole plan for " << plans::name(request.purpose) << " takes " << plans::timeText(whole)
+    out << "\nThe whole plan for " << plans::name(request.like.purpose) << " takes " << plans::timeText(whole)
         << ".\n";
   out << "\nwritten: " << std::filesystem::absolute(output).lexically_normal().string() << "\n";
 }
