@@ -350,7 +350,6 @@ void Conductor::acceptStep(const Verdict& verdict) {
 }
 
 void Conductor::rejectStep(const Verdict& verdict) {
-  ++state_.rejected;
   ++attempts_;
   last_rejected_ = verdict;
   recovering_ = true;
@@ -368,9 +367,10 @@ void Conductor::hinder(Reason reason, const std::string& sentence) {
   spoil(reason, sentence);
 }
 
-void Conductor::note(std::size_t step, StepState state, const Verdict& verdict) {
+void Conductor::note(std::size_t step, StepState state, const Verdict& verdict, bool mount_again) {
   ++revision_;
-  outcomes_.push_back({step, state, verdict});
+  state_.rejected += state == StepState::kOpen;
+  outcomes_.push_back({step, state, verdict, mount_again});
   if (outcomes_.size() > kMostOutcomes) outcomes_.erase(outcomes_.begin());
   if (state == StepState::kSkipped || verdict.sentence.empty()) return;
   state_.remarks.push_back({step, verdict.reason, verdict.sentence});

@@ -153,7 +153,7 @@ class Conductor {
   void handle(const Verdict& verdict, const Reading& reading);
   void acceptStep(const Verdict& verdict);
   void rejectStep(const Verdict& verdict);
-  void note(std::size_t step, StepState state, const Verdict& verdict);
+  void note(std::size_t step, StepState state, const Verdict& verdict, bool mount_again = false);
   void spoil(Reason reason, const std::string& sentence);
   void hinder(Reason reason, const std::string& sentence);
   void goOn(bool after_loop = false);

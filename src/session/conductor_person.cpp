@@ -65,9 +65,7 @@ Answer Conductor::reject(const std::string& reason) {
     for (std::size_t s = 0; s < steps_.size(); ++s) {
       if (steps_[s].mount == mount) state_.steps[s] = StepState::kOpen;
     }
-    note(step_, StepState::kOpen, byHand("the sheet has left the surface; the mount begins again"));
-    outcomes_.back().mount_again = true;
-    ++state_.rejected;
+    note(step_, StepState::kOpen, byHand("the sheet has left the surface; the mount begins again"), true);
     goOn();
     return {true, mountText(steps_[step_]) + " begins again"};
   }
@@ -82,9 +80,7 @@ Answer Conductor::reject(const std::string& reason) {
   state_.steps[before] = StepState::kOpen;
   goOn();
   if (steps_[before].kind == StepKind::kMount) {
-    note(before, StepState::kOpen, byHand(reason));
-    outcomes_.back().mount_again = true;
-    ++state_.rejected;
+    note(before, StepState::kOpen, byHand(reason), true);
   } else {
     rejectStep(byHand(reason));
   }

@@ -161,9 +161,7 @@ void Conductor::beginMountAgain(const Verdict& verdict) {
         state_.steps[s] == StepState::kAccepted)
       state_.steps[s] = StepState::kOpen;
   }
-  ++state_.rejected;
-  note(step_, StepState::kOpen, verdict);
-  outcomes_.back().mount_again = true;
+  note(step_, StepState::kOpen, verdict, true);
   goOn();
   attempts_ = 1;
   last_rejected_ = verdict;
