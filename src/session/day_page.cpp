@@ -1,6 +1,6 @@
 #include <algorithm>
+#include <boost/algorithm/string.hpp>
 #include <filesystem>
-#include <sstream>
 
 #include "session/coverage.h"
 #include "session/day_report.h"
@@ -20,13 +20,9 @@ std::string kilopascals(const Json& pressure, int decimals, double factor = 1) {
   return pressure.is_null() ? "-" : settings::fixedText(factor * pressure.get<double>() / 1e3, decimals);
 }
 
-std::string lastLine(const std::string& text) {
-  std::istringstream lines(text);
-  std::string line, last;
-  while (std::getline(lines, line)) {
-    if (!line.empty()) last = line;
-  }
-  return last;
+std::string lastLine(std::string text) {
+  boost::trim_right_if(text, boost::is_any_of("\n"));
+  return text.substr(text.rfind('\n') + 1);
 }
 
 std::string attempts(std::size_t number) {

@@ -84,17 +84,12 @@ struct Statement {
   std::vector<MountReading> mounts;  // with surface and signature as the statement says
 };
 
-std::size_t mountsOn(const std::vector<MountReading>& mounts, const std::string& surface) {
-  return static_cast<std::size_t>(std::count_if(
-      mounts.begin(), mounts.end(), [&](const MountReading& one) { return one.surface == surface; }));
-}
-
 Within withinSurfaces(const std::vector<MountReading>& mounts) {
   Within within;
   std::set<std::string> surfaces;
   for (const MountReading& one : mounts) surfaces.insert(one.surface);
+  within.freedom = static_cast<double>(mounts.size() - surfaces.size());
   for (const std::string& surface : surfaces) {
-    within.freedom += static_cast<double>(mountsOn(mounts, surface)) - 1;
     for (std::size_t i = 0; i < mounts.front().signature.size(); ++i) {
       std::vector<double> values;
       for (const MountReading& one : mounts) {
@@ -222,7 +217,8 @@ std::optional<SurfaceDoubt> SurfaceWatch::compare(const MountReading& now) const
   for (const MountReading& one : mounts_) {
     if (one.mount != now.mount && one.signature.size() == now.signature.size()) mounts.push_back(one);
   }
-  if (now.signature.empty() || mountsOn(mounts, now.surface) == 0) return std::nullopt;
+  const auto agrees = [&](const MountReading& one) { return one.surface == now.surface; };
+  if (now.signature.empty() || std::none_of(mounts.begin(), mounts.end(), agrees)) return std::nullopt;
   mounts.push_back(now);
   std::vector<Statement> statements = Statements(mounts).all;
   const double could_be_said =
