@@ -75,8 +75,8 @@ unsigned long partOf(const std::string& file, const std::string& stem) {
 
 }  // namespace
 
-std::string sessionFile(const std::string& plan, const char* ending) {
-  return plainName(plan) + ending;
+std::string sessionFile(const std::string& plan, const char* ending, const std::string& folder) {
+  return (fs::path(folder) / (plainName(plan) + ending)).string();
 }
 
 std::string bagStem(const std::string& plan, unsigned mount, const std::string& surface) {
@@ -180,13 +180,13 @@ std::vector<StepRemark> readRemarks(const settings::Settings& settings, std::siz
 
 // The digest of a state was that of the plan's text, as it was worded then. It is beside the state, below a
 // remark of one line.
-std::string digestOfContent(const std::string& digest, const std::filesystem::path& plan) {
+std::string digestOfContent(const std::string& digest, const std::string& plan) {
   std::ifstream file(plan, std::ios::binary);
   std::string remark;
   std::getline(file, remark);
   const std::string text(std::istreambuf_iterator<char>(file), {});
   if (text.empty() || settings::sha256(text.data(), text.size()) != digest) return digest;
-  return digestOf(readPlanFile(plan.string()));
+  return digestOf(readPlanFile(plan));
 }
 
 }  // namespace
@@ -205,8 +205,8 @@ ConductorState readState(const std::string& path) {
   const settings::Settings settings = settings::Settings::fromFile(path);
   ConductorState state;
   state.plan = settings.text("plan");
-  state.digest = digestOfContent(settings.text("digest"), std::filesystem::path(path).parent_path() /
-                                                              sessionFile(state.plan, kPlanFile));
+  state.digest = digestOfContent(settings.text("digest"),
+                                 sessionFile(state.plan, kPlanFile, fs::path(path).parent_path().string()));
   state.time = settings.number("time", {0, 1e12, "s"});
   state.rejected = static_cast<unsigned>(settings.integer("rejected", {0, 1e9, "attempts"}));
   for (const char one : settings.text("steps")) {

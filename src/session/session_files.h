@@ -17,8 +17,8 @@ constexpr char kReportFile[] = "_report.html";          ///< of the day
 constexpr char kCalibrationFile[] = "_calibration.h5";  ///< likewise
 constexpr char kResultsFolder[] = "_report";            ///< what the tools wrote for the report
 
-/// "day_plan.yaml" for the plan `day` and kPlanFile.
-std::string sessionFile(const std::string& plan, const char* ending);
+/// "day_plan.yaml" for the plan `day` and kPlanFile; with its folder where one is given.
+std::string sessionFile(const std::string& plan, const char* ending, const std::string& folder = "");
 
 /// "day_02_cylinder_5cm": without part and ending.
 std::string bagStem(const std::string& plan, unsigned mount, const std::string& surface);

@@ -105,8 +105,7 @@ void ConductServer::start(const Parameters& parameters) {
   const RescuedSession rescued = rescueSession(folder_, plan_.name);
   for (const std::string& sentence : rescued.closed) ROS_WARN_STREAM(sentence);
   for (const std::string& sentence : rescued.open) ROS_ERROR_STREAM(sentence);
-  state_file_ =
-      (fs::path(folder_) / fsr::session::sessionFile(plan_.name, fsr::session::kStateFile)).string();
+  state_file_ = fsr::session::sessionFile(plan_.name, fsr::session::kStateFile, folder_);
   if (fs::exists(state_file_)) {
     conductor_ =
         std::make_unique<fsr::session::Conductor>(plan_, fsr::session::readState(state_file_), silence);
@@ -115,9 +114,8 @@ void ConductServer::start(const Parameters& parameters) {
     conductor_ = std::make_unique<fsr::session::Conductor>(plan_, silence);
   }
   // So that the folder tells by itself what was planned.
-  fsr::settings::replaceFile(
-      (fs::path(folder_) / fsr::session::sessionFile(plan_.name, fsr::session::kPlanFile)).string(),
-      planText(plan_, {"The plan of this session."}));
+  fsr::settings::replaceFile(fsr::session::sessionFile(plan_.name, fsr::session::kPlanFile, folder_),
+                             planText(plan_, {"The plan of this session."}));
   if (parameters.flag("report", true)) reporter_ = std::make_unique<DayReporter>(folder_, plan_.name);
 }
 
@@ -187,11 +185,7 @@ void ConductServer::onScan(const fsr_pressure_map::MatrixFrameConstPtr& message)
     scan_bytes_ = 0;
   }
   scan_bytes_ += 2 * taxels + 60 + kPressureBytes;
-  last_frame_ = fsr_pressure_map::MatrixFrame{};
-  last_frame_->rows = frame.rows;
-  last_frame_->columns = frame.columns;
-  last_frame_->full_scale = frame.full_scale;
-  last_frame_->sequence = frame.sequence;
+  last_frame_ = message;
   noteTime(scan.time);
   conductor_->scan(scan);
   follow();

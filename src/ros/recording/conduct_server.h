@@ -80,7 +80,7 @@ class ConductServer {
   std::unique_ptr<fsr::session::Conductor> conductor_;
   std::unique_ptr<fsr::health::TaxelWatch> taxels_;
   fsr_pressure_map::MatrixInfoConstPtr info_;
-  std::optional<fsr_pressure_map::MatrixFrame> last_frame_;  // without its counts
+  fsr_pressure_map::MatrixFrameConstPtr last_frame_;
 
   std::unique_ptr<fsr::session::FolderLock> lock_;
   std::unique_ptr<DayReporter> reporter_;  // null: no report is wanted

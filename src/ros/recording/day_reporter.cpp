@@ -16,8 +16,8 @@ namespace fs = std::filesystem;
 
 DayReporter::DayReporter(std::string folder, const std::string& plan)
     : folder_(fs::absolute(folder).lexically_normal().string()) {
-  const fs::path results = fs::path(folder_) / fsr::session::sessionFile(plan, fsr::session::kResultsFolder);
-  report_ = (fs::path(folder_) / fsr::session::sessionFile(plan, fsr::session::kReportFile)).string();
+  const fs::path results = fsr::session::sessionFile(plan, fsr::session::kResultsFolder, folder_);
+  report_ = fsr::session::sessionFile(plan, fsr::session::kReportFile, folder_);
   output_ = (results / "day_report.txt").string();
   log_ = (results / "day_report.log").string();
 }

@@ -127,8 +127,8 @@ DayReport recordOf(const fsr::settings::CommandLine& line, const std::string& fo
     plan_name = fsr::session::readPlanFile(line.text("plan", ""), line.text("surfaces", "")).name;
   const fs::path state_file = fs::path(folder) / fsr::session::stateFileIn(folder, plan_name);
   const fsr::session::ConductorState state = fsr::session::readState(state_file.string());
-  const fs::path beside = fs::path(folder) / fsr::session::sessionFile(state.plan, fsr::session::kPlanFile);
-  const std::string plan_file = line.text("plan", beside.string());
+  const std::string plan_file =
+      line.text("plan", fsr::session::sessionFile(state.plan, fsr::session::kPlanFile, folder));
   if (!fs::exists(plan_file))
     throw InputError(
         plan_file +
@@ -160,8 +160,7 @@ int dayReportTool(int argc, const char* const* argv, std::ostream& out) {
   checkOptions(line);
   const std::string folder = fs::absolute(line.files().front()).lexically_normal().string();
   DayReport day = recordOf(line, folder);
-  const std::string page =
-      (fs::path(folder) / fsr::session::sessionFile(day.plan.name, fsr::session::kReportFile)).string();
+  const std::string page = fsr::session::sessionFile(day.plan.name, fsr::session::kReportFile, folder);
   fsr::settings::requireReplaceable(page, fsr::settings::file_kind::kPage);
   runTools(line, folder, day);
   fsr::settings::replaceFile(page, fsr::session::dayHtml(day));
