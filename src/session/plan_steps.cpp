@@ -48,46 +48,42 @@ class MountSteps {
       : plan_(plan), mount_(mount), steps_(steps), first_(steps.size()) {}
 
   void run(bool conditioned) {
-    append(StepKind::kMount, plan_.change, false);
-    if (conditioned) condition();
+    append(StepKind::kMount, plan_.change, false, {0, 0, 0, 0, 0, 0});
+    const simulation::ChamberProtocol cycle = conditioningCycle(plan_);
+    for (unsigned c = 0; conditioned && c < plan_.conditioning.cycles; ++c)
+      append(StepKind::kCondition, simulation::cycleDuration(cycle), false, cycle);
     for (const simulation::ProgramPart& part : recordedProgram(plan_)) std::visit(*this, part);
-    const unsigned after = mount_.number;
     for (const Break& one : plan_.breaks) {
-      if (one.after == after) append(StepKind::kBreak, one.duration, false).dwell_rest = one.duration;
+      if (one.after == mount_.number)
+        append(StepKind::kBreak, one.duration, false, {0, 0, 0, 0, one.duration, 1});
     }
     count();
   }
 
   void operator()(const simulation::ChamberProtocol& part) {
     for (unsigned c = 0; c < part.cycles; ++c)
-      setCycle(part,
-               append(StepKind::kCycle, rampTo(0, part.vent_rate) + simulation::cycleDuration(part), true));
+      append(StepKind::kCycle, rampTo(0, part.vent_rate) + simulation::cycleDuration(part), true, part);
   }
   void operator()(const simulation::HoldPart& part) {
-    SessionStep& step = append(StepKind::kHold, rampTo(part.pressure, part.rate) + part.duration, true);
-    step.peak = part.pressure;
-    step.fill_rate = step.vent_rate = part.rate;
-    step.dwell_peak = part.duration;
+    append(StepKind::kHold, rampTo(part.pressure, part.rate) + part.duration, true,
+           {part.pressure, part.rate, part.rate, part.duration, 0, 1});
   }
   void operator()(const simulation::LoopsPart& part) {
-    for (unsigned l = 0; l < part.loops; ++l) {
-      const double ramps = 2 * (part.high - part.low) / part.rate;
-      SessionStep& step = append(StepKind::kLoop, rampTo(part.low, part.rate) + ramps, true);
-      step.low = part.low;
-      step.peak = part.high;
-      step.fill_rate = step.vent_rate = part.rate;
-    }
+    const double ramps = 2 * (part.high - part.low) / part.rate;
+    for (unsigned l = 0; l < part.loops; ++l)
+      append(StepKind::kLoop, rampTo(part.low, part.rate) + ramps, true,
+             {part.high, part.rate, part.rate, 0, 0, 1})
+          .low = part.low;
   }
   void operator()(const simulation::RestPart& part) {
     const double duration = rampTo(0, part.rate) + part.duration;
-    if (!(duration > 0)) return;
-    SessionStep& step = append(StepKind::kRest, duration, true);
-    step.vent_rate = part.rate;
-    step.dwell_rest = part.duration;
+    if (duration > 0) append(StepKind::kRest, duration, true, {0, 0, part.rate, 0, part.duration, 1});
   }
 
  private:
-  SessionStep& append(StepKind kind, double duration, bool recorded) {
+  // `course`: what the chamber does; a number that the kind does not have is 0.
+  SessionStep& append(StepKind kind, double duration, bool recorded,
+                      const simulation::ChamberProtocol& course) {
     SessionStep step;
     step.kind = kind;
     step.mount = mount_.number;
@@ -95,21 +91,13 @@ class MountSteps {
     step.recorded = recorded;
     step.begin = steps_.empty() ? 0 : steps_.back().begin + steps_.back().duration;
     step.duration = duration;
+    step.peak = course.peak;
+    step.fill_rate = course.fill_rate;
+    step.vent_rate = course.vent_rate;
+    step.dwell_peak = course.dwell_peak;
+    step.dwell_rest = course.dwell_rest;
     steps_.push_back(step);
     return steps_.back();
-  }
-  void condition() {
-    for (unsigned c = 0; c < plan_.conditioning.cycles; ++c) {
-      const simulation::ChamberProtocol cycle = conditioningCycle(plan_);
-      setCycle(cycle, append(StepKind::kCondition, simulation::cycleDuration(cycle), false));
-    }
-  }
-  static void setCycle(const simulation::ChamberProtocol& part, SessionStep& step) {
-    step.peak = part.peak;
-    step.fill_rate = part.fill_rate;
-    step.vent_rate = part.vent_rate;
-    step.dwell_peak = part.dwell_peak;
-    step.dwell_rest = part.dwell_rest;
   }
   // Time to reach a pressure [s].
   double rampTo(double pressure, double rate) {
