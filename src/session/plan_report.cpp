@@ -35,18 +35,20 @@ constexpr double kUnitsFor95 = 19;   // mounts: 19 / (19 + 1) = 95 %
 /// What the recordings of a plan contain.
 struct Contents {
   double mounts = 0;
-  double remounted = 0;  // surfaces with two mounts or more
-  double cycles = 0;     // cycles, loops and holds on the surface that has fewest
-  double protocols = 0;  // ways in which the chamber is driven
-  double longest_hold = 0, slowest = 1e9, fastest = 0, highest = 0;  // [s], [Pa/s], [Pa/s], [Pa]
-  std::vector<double> curvatures;                                    // of the surfaces, ascending [1/m]
-  bool rest_first = false, first_again = false, conditioned = false, thermometer = false;
-  bool long_break = false, dwells = false;
+  double remounted = 0;                  // surfaces with two mounts or more
+  double cycles = 0;                     // cycles, loops and holds on the surface that has fewest
+  double protocols = 0;                  // ways in which the chamber is driven
+  double longest_hold = 0, highest = 0;  // [s], [Pa]
+  std::vector<double> curvatures;        // of the surfaces, ascending [1/m]
+  bool rest_first = false, first_again = false, conditioned = false;
+  discrepancy::AvailableEvidence evidence;
 };
 
 Contents contentsOf(const SessionPlan& plan) {
   Contents contents;
   std::set<std::tuple<double, double, double>> driven;
+  double slowest = 1e9, fastest = 0;  // [Pa/s]
+  bool dwells = false;
   for (const SessionStep& step : sessionSteps(plan)) {
     if (step.mount > 1 || !step.recorded) continue;
     contents.longest_hold =
@@ -54,9 +56,9 @@ Contents contentsOf(const SessionPlan& plan) {
     if (!step.loads()) continue;
     driven.insert({step.fill_rate, step.peak, step.dwell_peak});
     contents.cycles += 1;
-    contents.slowest = std::min(contents.slowest, step.fill_rate);
-    contents.fastest = std::max(contents.fastest, step.fill_rate);
-    contents.dwells |= step.kind == StepKind::kHold || step.dwell_peak > kDwelling * step.duration;
+    slowest = std::min(slowest, step.fill_rate);
+    fastest = std::max(fastest, step.fill_rate);
+    dwells |= step.kind == StepKind::kHold || step.dwell_peak > kDwelling * step.duration;
   }
   contents.protocols = static_cast<double>(driven.size());
   std::vector<unsigned> visits;
@@ -74,8 +76,11 @@ Contents contentsOf(const SessionPlan& plan) {
   contents.first_again =
       plan.surfaces.size() > 1 && order.size() > 2 && order.front().surface == order.back().surface;
   contents.conditioned = plan.conditioning.cycles > 0;
-  contents.thermometer = plan.thermometer;
-  for (const Break& one : plan.breaks) contents.long_break |= one.duration >= kLongBreak;
+  contents.evidence.thermometer = plan.thermometer;
+  contents.evidence.two_rates = dwells || fastest > kTwoPaces * slowest;
+  contents.evidence.mount_labels = true;
+  contents.evidence.remounted = contents.remounted > 0;
+  for (const Break& one : plan.breaks) contents.evidence.uneven_pace |= one.duration >= kLongBreak;
   return contents;
 }
 
@@ -106,7 +111,7 @@ constexpr Question kQuestions[] = {
     {"Whether a tare at the start of a session helps", "no surface has two recordings that start with a rest",
      nullptr, [](const Contents& c) { return double(c.remounted > 0 && c.rest_first); }},
     {"The influence of the temperature, where it changes", "no thermometer is recorded", nullptr,
-     [](const Contents& c) { return double(c.thermometer); }},
+     [](const Contents& c) { return double(c.evidence.thermometer); }},
     {"The sheet as it is after its first loadings", "it is not conditioned", nullptr,
      [](const Contents& c) { return double(c.conditioned); }},
     {"The held-out error, by the sections of the cross-validation",
@@ -147,16 +152,6 @@ std::string rangeText(const Contents& contents) {
 
 // ---- effects that `discrepancy` could name alone -----------------------------------------------------
 
-discrepancy::AvailableEvidence evidenceIn(const Contents& contents) {
-  discrepancy::AvailableEvidence evidence;
-  evidence.thermometer = contents.thermometer;
-  evidence.two_rates = contents.dwells || contents.fastest > kTwoPaces * contents.slowest;
-  evidence.mount_labels = true;
-  evidence.remounted = contents.remounted > 0;
-  evidence.uneven_pace = contents.long_break;
-  return evidence;
-}
-
 // Why an effect could not be named: the rules by which `discrepancy` lists it as not testable. Empty = it
 // could.
 std::string whyNot(const simulation::EffectInfo& info, const discrepancy::AvailableEvidence& evidence) {
@@ -178,10 +173,9 @@ std::string whyNot(const simulation::EffectInfo& info, const discrepancy::Availa
 // Ids of the library, by the reason for which they could not be named.
 std::map<std::string, Sentences> effectsByReason(const Contents& contents) {
   std::map<std::string, Sentences> effects;
-  const discrepancy::AvailableEvidence evidence = evidenceIn(contents);
   for (const simulation::EffectEntry& entry : simulation::EffectLibrary::shipped().entries()) {
     if (entry.info.kind == simulation::EffectKind::kBase || entry.info.with_bending) continue;
-    effects[whyNot(entry.info, evidence)].push_back(entry.info.id);
+    effects[whyNot(entry.info, contents.evidence)].push_back(entry.info.id);
   }
   return effects;
 }
