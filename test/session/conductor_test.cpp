@@ -1,11 +1,8 @@
 #include "session/conductor.h"
 
-#include <unistd.h>
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <fstream>
 
 #include "fsr_pressure_map/settings/input_error.h"
@@ -13,6 +10,7 @@
 #include "session/rig_day.h"
 #include "session/session_files.h"
 #include "support/holds.h"
+#include "support/pty.h"
 
 namespace {
 
@@ -70,7 +68,8 @@ TEST(Conductor, ABreakPassesWithTheChamberOff) {
 }
 
 TEST(Conductor, GoesOnWhereASessionStopped) {
-  const std::string path = testing::TempDir() + "conductor_state_" + std::to_string(::getpid()) + ".yaml";
+  const test_support::TemporaryFolder folder;
+  const std::string path = folder.path("state.yaml");
   const auto plan = planFrom(kDay);
   RigDay before(plan);
   followTo(before, 6);
@@ -87,7 +86,6 @@ TEST(Conductor, GoesOnWhereASessionStopped) {
   day.follow();
   EXPECT_EQ(day.rejected(), Names{}) << day.last.sentence;
   EXPECT_EQ(day.conductor.instruction().step, 7u);
-  std::remove(path.c_str());
 }
 
 TEST(Conductor, BeginsTheMountAgainIfTheSheetWasTakenOffMeanwhile) {
@@ -121,11 +119,11 @@ TEST(Conductor, RefusesTheStateOfAnotherPlan) {
 }
 
 TEST(Conductor, RefusesADamagedState) {
-  const std::string path = testing::TempDir() + "conductor_damaged_" + std::to_string(::getpid()) + ".yaml";
+  const test_support::TemporaryFolder folder;
+  const std::string path = folder.path("state.yaml");
   std::ofstream(path) << "plan: day\ndigest: x\ntime: 1\nrejected: 0\nsteps: aax.\n";
   EXPECT_TRUE(test_support::holds(test_support::refusal([&] { readState(path); }),
                                   {"steps is aax., but must consist of"}));
-  std::remove(path.c_str());
 }
 
 TEST(Conductor, SkipsAWholeMount) {

@@ -238,18 +238,13 @@ TEST(OperatedDay, EndsWithoutARejectionForTheShippedPlans) {
   }
 }
 
-struct StepOfMount {
-  unsigned mount;
-  std::size_t step;  // its number, from 1
-};
-
-std::vector<StepOfMount> mountStepsOf(const SessionPlan& plan) {
-  std::vector<StepOfMount> all;
+// The mistake, made where the sheet is put on for the mount.
+std::string atMount(const std::string& mistake, unsigned mount, const SessionPlan& plan) {
   const auto steps = sessionSteps(plan);
-  for (std::size_t s = 0; s < steps.size(); ++s) {
-    if (steps[s].kind == fsr::session::StepKind::kMount) all.push_back({steps[s].mount, s + 1});
-  }
-  return all;
+  const auto place = std::find_if(steps.begin(), steps.end(), [&](const auto& step) {
+    return step.kind == fsr::session::StepKind::kMount && step.mount == mount;
+  });
+  return mistake + "@" + std::to_string(place - steps.begin() + 1);
 }
 
 class OperatedDayMistake : public testing::TestWithParam<std::string> {};
@@ -300,31 +295,25 @@ class OtherSurface : public testing::TestWithParam<std::string> {};
 
 TEST_P(OtherSurface, IsNamedWithinTheCycleWhereBothSurfacesWereMountedBefore) {
   const SessionPlan plan = planOf(kRounds);
-  for (const StepOfMount& at : mountStepsOf(plan)) {
-    if (at.mount != 6) continue;  // the third one on the cylinder
-    OperatedDay day(plan, GetParam() + "@" + std::to_string(at.step));
-    EXPECT_TRUE(day.run(kLimit)) << day.told();
-    ASSERT_EQ(day.remarks.size(), 1u) << day.told();
-    EXPECT_EQ(day.remarks[0].reason, "other_surface") << day.told();
-    EXPECT_TRUE(day.remarks[0].rejected) << day.told();
-    EXPECT_EQ(day.remarks[0].sentence.find("mount 6 "), 0u) << day.told();
-    for (const StepState state : day.conductor->states()) EXPECT_EQ(state, StepState::kAccepted);
-  }
+  OperatedDay day(plan, atMount(GetParam(), 6, plan));  // the third one on the cylinder
+  EXPECT_TRUE(day.run(kLimit)) << day.told();
+  ASSERT_EQ(day.remarks.size(), 1u) << day.told();
+  EXPECT_EQ(day.remarks[0].reason, "other_surface") << day.told();
+  EXPECT_TRUE(day.remarks[0].rejected) << day.told();
+  EXPECT_EQ(day.remarks[0].sentence.find("mount 6 "), 0u) << day.told();
+  for (const StepState state : day.conductor->states()) EXPECT_EQ(state, StepState::kAccepted);
 }
 
 TEST_P(OtherSurface, IsNamedAtTheLatestByALaterMount) {
   const SessionPlan plan = planOf(kRounds);
-  for (const StepOfMount& at : mountStepsOf(plan)) {
-    if (at.mount != 2) continue;  // the first one on the cylinder
-    OperatedDay day(plan, GetParam() + "@" + std::to_string(at.step));
-    EXPECT_TRUE(day.run(kLimit)) << day.told();
-    ASSERT_FALSE(day.remarks.empty()) << day.told();
-    for (const Remark& one : day.remarks) {
-      EXPECT_TRUE(one.reason == "other_surface" || one.reason == "mounts_disagree") << day.told();
-    }
-    EXPECT_NE(day.remarks.back().sentence.find("mount 2"), std::string::npos) << day.told();
-    for (const StepState state : day.conductor->states()) EXPECT_EQ(state, StepState::kAccepted);
+  OperatedDay day(plan, atMount(GetParam(), 2, plan));  // the first one on the cylinder
+  EXPECT_TRUE(day.run(kLimit)) << day.told();
+  ASSERT_FALSE(day.remarks.empty()) << day.told();
+  for (const Remark& one : day.remarks) {
+    EXPECT_TRUE(one.reason == "other_surface" || one.reason == "mounts_disagree") << day.told();
   }
+  EXPECT_NE(day.remarks.back().sentence.find("mount 2"), std::string::npos) << day.told();
+  for (const StepState state : day.conductor->states()) EXPECT_EQ(state, StepState::kAccepted);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, OtherSurface,
