@@ -1,10 +1,8 @@
 #include "check/check.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <filesystem>
 #include <functional>
 
 #include "calibration/merge.h"
@@ -12,6 +10,7 @@
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "fsr_pressure_map/calibration/calibrator.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "support/folder_test.h"
 #include "support/holds.h"
 #include "support/memory_rig.h"
 #include "support/source_dir.h"
@@ -385,7 +384,7 @@ TEST(Check, LeavesOutCyclesThatAreSmallOrNotWhole) {
   SyntheticRig half = loopedRig(3, false);
   half.peak = 300e3;
   half.cycles = 2;
-  Recording recording = syntheticRecording(loopedRig(2, false));
+  const Recording recording = syntheticRecording(loopedRig(2, false));
   const CheckResult whole = decide(parent(), {recording});
   EXPECT_EQ(whole.correction->cycles, 5u);
   EXPECT_TRUE(whole.correction->remarks.empty());
@@ -394,12 +393,8 @@ TEST(Check, LeavesOutCyclesThatAreSmallOrNotWhole) {
   EXPECT_EQ(mixed.correction->choice.rmse, whole.correction->choice.rmse);
   ASSERT_EQ(mixed.correction->remarks.size(), 1u);
   EXPECT_NE(mixed.correction->remarks[0].find("sheet_3.bag, flat: 2 cycles are left out"), std::string::npos);
-  const std::size_t taxels = recording.layout.size.taxels();
-  recording.time.resize(450);  // up to the peak of the fifth cycle
-  recording.pressure.resize(450);
-  recording.condition.resize(450);
-  recording.counts.resize(450 * taxels);
-  EXPECT_EQ(decide(parent(), {recording}).correction->cycles, 4u);
+  const Recording cut = test_support::partOf(recording, 0, 450);  // up to the peak of the fifth cycle
+  EXPECT_EQ(decide(parent(), {cut}).correction->cycles, 4u);
 }
 
 TEST(Check, RefusesTheChildOfAChild) {
@@ -411,22 +406,19 @@ TEST(Check, RefusesTheChildOfAChild) {
                                   {"ba9876543210 is itself a correction of 0123456789ab"}));
 }
 
-class CorrectedFile : public testing::Test {
+class CorrectedFile : public test_support::FolderTest {
  protected:
-  void SetUp() override { std::filesystem::create_directories(folder_); }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
+  Calibration savedAndLoaded() const {
+    saveCalibration(result_.child.value(), path("child.h5"));
+    return fsr::calibration::loadCalibration(path("child.h5"), fsr::calibration::CalibrationParts::kAll);
+  }
 
-  std::filesystem::path folder_ =
-      std::filesystem::temp_directory_path() / ("recheck_test_" + std::to_string(::getpid()));
+  const CheckResult result_ = recheck(worn);
 };
 
 TEST_F(CorrectedFile, KeepsItsAncestryAndAnswers) {
-  const CheckResult result = recheck(worn);
-  ASSERT_TRUE(result.child.has_value());
-  const std::string path = (folder_ / "child.h5").string();
-  saveCalibration(*result.child, path);
-  const Calibration loaded = fsr::calibration::loadCalibration(path);
-  const fsr::calibration::Correction &written = result.child->correction, &read = loaded.correction;
+  const Calibration loaded = savedAndLoaded();
+  const fsr::calibration::Correction &written = result_.child->correction, &read = loaded.correction;
   ASSERT_TRUE(read.present());
   EXPECT_EQ(read.parent, "0123456789ab");
   EXPECT_EQ(read.parent_date, parent().provenance.date);
@@ -443,7 +435,7 @@ TEST_F(CorrectedFile, KeepsItsAncestryAndAnswers) {
   EXPECT_EQ(read.rmse, written.rmse);
   EXPECT_EQ(read.expected_rmse, written.expected_rmse);
   EXPECT_EQ(loaded.coverage.conditions.size(), parent().coverage.conditions.size());
-  EXPECT_EQ(loaded.tables.tables[0].pressure, result.child->tables.tables[0].pressure);
+  EXPECT_EQ(loaded.tables.tables[0].pressure, result_.child->tables.tables[0].pressure);
 
   // 1,000 counts of before read 975 today and mean the same.
   EXPECT_NEAR(loaded.tables.tables[0].pressure[975], parent().tables.tables[0].pressure[1000],
@@ -451,19 +443,15 @@ TEST_F(CorrectedFile, KeepsItsAncestryAndAnswers) {
 }
 
 TEST_F(CorrectedFile, CannotBeMerged) {
-  const CheckResult result = recheck(worn);
-  ASSERT_TRUE(result.child.has_value());
-  const std::string path = (folder_ / "child.h5").string();
-  saveCalibration(*result.child, path);
-  const Calibration loaded =
-      fsr::calibration::loadCalibration(path, fsr::calibration::CalibrationParts::kAll);
-  const std::string sentence = refusal([&] {
-    fsr::calibration::mergeCalibrations({{"child.h5", loaded}, {"other.h5", parent()}});
-  });
-  EXPECT_NE(sentence.find("child.h5: holds no statistics to merge"), std::string::npos) << sentence;
+  const Calibration loaded = savedAndLoaded();
+  EXPECT_TRUE(test_support::holds(
+      refusal([&] {
+        fsr::calibration::mergeCalibrations({{"child.h5", loaded}, {"other.h5", parent()}});
+      }),
+      {"child.h5: holds no statistics to merge"}));
 }
 
-TEST_F(CorrectedFile, OldFilesHaveNoParent) {
+TEST(Correction, IsAbsentInOldFiles) {
   for (const char* const name : {"schema_1.h5", "schema_2.h5"}) {
     const Calibration old =
         fsr::calibration::loadCalibration(test_support::sourceDir() + "/test/data/calibrations/" + name);

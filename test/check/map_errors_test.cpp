@@ -167,14 +167,7 @@ TEST(MapErrorsOfMemory, StatesPartsAndWhatWasNotSettled) {
 TEST(MapErrorsOfMemory, SaysWhichPromiseItCannotSee) {
   const fsr::calibration::Calibration calibration = trained({test_support::memoryRecording(loopRig())});
   EXPECT_TRUE(errorsOfMap(calibration, {another()}).not_shown.empty());
-  Recording held = another();
-  const std::size_t scans = 8;  // from 6 s on: 120 to 136 kPa of 600
-  held.time.assign(held.time.begin() + 60, held.time.begin() + 60 + scans);
-  held.pressure.assign(held.pressure.begin() + 60, held.pressure.begin() + 60 + scans);
-  held.condition.assign(held.condition.begin() + 60, held.condition.begin() + 60 + scans);
-  const auto first = held.counts.begin() + 60 * 3;
-  const std::vector<std::uint16_t> counts(first, first + 3 * static_cast<std::ptrdiff_t>(scans));
-  held.counts = counts;
+  const Recording held = test_support::partOf(another(), 60, 68);  // 120 to 136 kPa of 600
   const MapErrors check = errorsOfMap(calibration, {held});
   ASSERT_EQ(check.not_shown.size(), 2u);
   EXPECT_GT(check.whole.share(check.whole.unsettled), 0.5);

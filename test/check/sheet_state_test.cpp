@@ -11,16 +11,17 @@
 namespace fsr::check {
 namespace {
 
-using test_support::LifeRig;
 using test_support::lineThrough;
-using test_support::weeklyRecordings;
+
+dataset::Recording oneWeek(double gain = 1) {
+  test_support::LifeRig rig;
+  rig.weeks = 1;
+  rig.gain = [gain](std::size_t) { return gain; };
+  return weeklyRecordings(rig).at(0);
+}
 
 TEST(SheetState, ReadsTheGainAgainstTheFirstCalibration) {
-  LifeRig rig;
-  rig.weeks = 1;
-  const dataset::Recording before = weeklyRecordings(rig).at(0);
-  rig.gain = [](std::size_t) { return 0.9; };
-  const dataset::Recording after = weeklyRecordings(rig).at(0);
+  const dataset::Recording before = oneWeek(), after = oneWeek(0.9);
   const calibration::Calibration first = lineThrough(before);
   const SheetState state = stateOf(after, &first);
   ASSERT_EQ(state.surfaces.size(), 1u);
@@ -34,9 +35,7 @@ TEST(SheetState, ReadsTheGainAgainstTheFirstCalibration) {
 }
 
 TEST(SheetState, ReadsZeroAndNoiseAtRest) {
-  LifeRig rig;
-  rig.weeks = 1;
-  dataset::Recording recording = weeklyRecordings(rig).at(0);
+  dataset::Recording recording = oneWeek();
   for (std::uint16_t& count : recording.counts) count = static_cast<std::uint16_t>(count / 2 + 400);
   const SheetState state = stateOf(recording, nullptr);
   // Half of the noise of 30 counts. Readings below zero do not exist, so some mounts read less noise.
@@ -48,9 +47,7 @@ TEST(SheetState, ReadsZeroAndNoiseAtRest) {
 }
 
 TEST(SheetState, KnowsNoGainOnASurfaceThatTheFirstCalibrationLacks) {
-  LifeRig rig;
-  rig.weeks = 1;
-  dataset::Recording recording = weeklyRecordings(rig).at(0);
+  dataset::Recording recording = oneWeek();
   const calibration::Calibration first = lineThrough(recording);
   recording.conditions[0].curvature = {{20, 0, 0}};
   EXPECT_TRUE(std::isnan(stateOf(recording, &first).surfaces[0].gain));
@@ -58,17 +55,13 @@ TEST(SheetState, KnowsNoGainOnASurfaceThatTheFirstCalibrationLacks) {
 }
 
 TEST(SheetState, TellsOnlyOfTaxelsWithoutAChamber) {
-  LifeRig rig;
-  rig.weeks = 1;
-  dataset::Recording recording = weeklyRecordings(rig).at(0);
+  dataset::Recording recording = oneWeek();
   recording.pressure.clear();
   EXPECT_TRUE(stateOf(recording, nullptr).surfaces.empty());
 }
 
 TEST(SheetState, RefusesAnotherConverter) {
-  LifeRig rig;
-  rig.weeks = 1;
-  dataset::Recording recording = weeklyRecordings(rig).at(0);
+  dataset::Recording recording = oneWeek();
   const calibration::Calibration first = lineThrough(recording);
   recording.full_scale = 4095;
   EXPECT_TRUE(test_support::holds(test_support::refusal([&] { stateOf(recording, &first); }),
