@@ -103,54 +103,71 @@ std::vector<TableColumn> statisticsColumns(const std::string& unit) {
           {"state", "", "state of the whole map", true}};
 }
 
+// A table with one row for each region and scan. HDF5 holds units and meanings of the columns.
+class StatisticsTable : public ScanSink {
+ public:
+  StatisticsTable(const std::string& path, const StatisticsOptions& options)
+      : options_(options),
+        factor_(1 / view::pascals(options.unit)),
+        reader_(options),
+        table_(openRowTable(path, "statistics",
+                            withSheet(statisticsColumns(view::name(options.unit)), options))) {}
+
+  void begin(const ExportSubject& subject) override {
+    reader_.begin(subject);
+    bag_ = subject.name;
+    sheet_ = subject.sheet;
+  }
+
+  void add(const ScanRecord& scan) override {
+    constexpr double kNone = ScanRecord::kUnknown;
+    const bool mounted = scan.surface != nullptr && scan.surface->mount != 0;
+    for (const RegionReading& reading : reader_.read(scan)) {
+      const map::RegionStatistics& of = reading.of;
+      const bool peak = !std::isnan(of.peak);
+      table_->add(withSheet({bag_,
+                             scan.session,
+                             scan.surface ? scan.surface->name : "",
+                             mounted ? double(scan.surface->mount) : kNone,
+                             scan.cycle ? double(*scan.cycle) : kNone,
+                             scan.event,
+                             1e-9 * double(scan.since_ns),
+                             1e-9 * double(scan.stamp_ns),
+                             regionName(of),
+                             of.peak * factor_,
+                             reading.peak_deviation * factor_,
+                             peak ? double(scan.layout.row(of.peak_taxel)) : kNone,
+                             peak ? double(scan.layout.column(of.peak_taxel)) : kNone,
+                             reading.mean_of_all * factor_,
+                             of.mean * factor_,
+                             reading.mean_deviation * factor_,
+                             of.force,
+                             reading.force_deviation,
+                             of.contact_area * 1e4,
+                             of.centre ? of.centre->x * 1e3 : kNone,
+                             of.centre ? of.centre->y * 1e3 : kNone,
+                             of.pressure_time_integral * factor_,
+                             double(of.at_least),
+                             double(of.bad),
+                             stateWord(scan.map->state)},
+                            sheet_, options_));
+    }
+  }
+
+  void finish() override { table_->finish(); }
+
+ private:
+  StatisticsOptions options_;
+  double factor_;  // of pressures in the table [unit / Pa]
+  RegionReader reader_;
+  std::unique_ptr<RowTable> table_;
+  std::string bag_, sheet_;
+};
+
 }  // namespace
 
-StatisticsTable::StatisticsTable(const std::string& path, const StatisticsOptions& options)
-    : options_(options),
-      factor_(1 / view::pascals(options.unit)),
-      reader_(options),
-      table_(openRowTable(path, "statistics",
-                          withSheet(statisticsColumns(view::name(options.unit)), options))) {}
-
-void StatisticsTable::begin(const ExportSubject& subject) {
-  reader_.begin(subject);
-  bag_ = subject.name;
-  sheet_ = subject.sheet;
-}
-
-void StatisticsTable::add(const ScanRecord& scan) {
-  constexpr double kNone = ScanRecord::kUnknown;
-  const bool mounted = scan.surface != nullptr && scan.surface->mount != 0;
-  for (const RegionReading& reading : reader_.read(scan)) {
-    const map::RegionStatistics& of = reading.of;
-    const bool peak = !std::isnan(of.peak);
-    table_->add(withSheet({bag_,
-                           scan.session,
-                           scan.surface ? scan.surface->name : "",
-                           mounted ? double(scan.surface->mount) : kNone,
-                           scan.cycle ? double(*scan.cycle) : kNone,
-                           scan.event,
-                           1e-9 * double(scan.since_ns),
-                           1e-9 * double(scan.stamp_ns),
-                           regionName(of),
-                           of.peak * factor_,
-                           reading.peak_deviation * factor_,
-                           peak ? double(scan.layout.row(of.peak_taxel)) : kNone,
-                           peak ? double(scan.layout.column(of.peak_taxel)) : kNone,
-                           reading.mean_of_all * factor_,
-                           of.mean * factor_,
-                           reading.mean_deviation * factor_,
-                           of.force,
-                           reading.force_deviation,
-                           of.contact_area * 1e4,
-                           of.centre ? of.centre->x * 1e3 : kNone,
-                           of.centre ? of.centre->y * 1e3 : kNone,
-                           of.pressure_time_integral * factor_,
-                           double(of.at_least),
-                           double(of.bad),
-                           stateWord(scan.map->state)},
-                          sheet_, options_));
-  }
+std::unique_ptr<ScanSink> openStatistics(const std::string& output, const StatisticsOptions& options) {
+  return std::make_unique<StatisticsTable>(output, options);
 }
 
 }  // namespace fsr::exports

@@ -49,21 +49,4 @@ std::vector<TableValue> withSheet(std::vector<TableValue> row, const std::string
 /// Name of a region in a table: that of the whole matrix is map::kWholeMatrix.
 std::string regionName(const map::RegionStatistics& region);
 
-/// A table with one row for each region and scan. HDF5 holds units and meanings of the columns.
-class StatisticsTable : public ScanSink {
- public:
-  StatisticsTable(const std::string& path, const StatisticsOptions& options);
-
-  void begin(const ExportSubject& subject) override;
-  void add(const ScanRecord& scan) override;
-  void finish() override { table_->finish(); }
-
- private:
-  StatisticsOptions options_;
-  double factor_;  // of pressures in the table [unit / Pa]
-  RegionReader reader_;
-  std::unique_ptr<RowTable> table_;
-  std::string bag_, sheet_;
-};
-
 }  // namespace fsr::exports

@@ -2,7 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <optional>
+#include <string>
 
+#include "exports/region_readings.h"
+#include "exports/row_table.h"
+#include "exports/scan_formats.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "statistics/samples.h"
 
@@ -100,111 +106,144 @@ std::vector<Step> findSteps(const std::vector<double>& force, const std::vector<
   return steps;
 }
 
-TrialTable::TrialTable(const std::string& path, const StatisticsOptions& options)
-    : options_(options),
-      factor_(1 / view::pascals(options.unit)),
-      reader_(options),
-      table_(openRowTable(path, "trial", withSheet(trialColumns(view::name(options.unit)), options))) {}
+namespace {
 
-void TrialTable::begin(const ExportSubject& subject) {
-  writeRecording();
-  reader_.begin(subject);
-  bag_ = subject.name;
-  sheet_ = subject.sheet;
-}
+// A table with one row for each region of a recording, step 0, and one for each step that is found in the
+// force on the whole matrix. HDF5 holds units and meanings of the columns. Memory grows by 56 bytes for each
+// region and scan.
+class TrialTable : public ScanSink {
+ public:
+  TrialTable(const std::string& path, const StatisticsOptions& options)
+      : options_(options),
+        factor_(1 / view::pascals(options.unit)),
+        reader_(options),
+        table_(openRowTable(path, "trial", withSheet(trialColumns(view::name(options.unit)), options))) {}
 
-void TrialTable::add(const ScanRecord& scan) {
-  const std::vector<RegionReading>& readings = reader_.read(scan);
-  if (readings.empty()) return;
-  const std::string surface = scan.surface ? scan.surface->name : "";
-  const std::uint32_t mount = scan.surface ? scan.surface->mount : 0;
-  if (time_.empty()) {
-    session_ = scan.session;
-    surface_ = surface;
-    mount_ = mount;
-    layout_ = scan.layout;
-    regions_.clear();
-    for (const RegionReading& reading : readings) regions_.push_back(regionName(reading.of));
-    moments_.assign(readings.size(), {});
+  void begin(const ExportSubject& subject) override {
+    writeRecording();
+    reader_.begin(subject);
+    bag_ = subject.name;
+    sheet_ = subject.sheet;
   }
-  if (session_ != scan.session) session_ = kSeveral;
-  if (surface_ != surface) surface_ = kSeveral;
-  if (mount_ != mount) mount_.reset();
-  time_.push_back(1e-9 * double(scan.since_ns));
-  for (std::size_t r = 0; r < readings.size(); ++r) {
-    const map::RegionStatistics& of = readings[r].of;
-    moments_[r].push_back({of.peak, readings[r].peak_deviation, of.mean, of.force, of.contact_area,
-                           of.peak_taxel, of.at_least > 0});
-  }
-}
 
-void TrialTable::writeRecording() {
-  if (time_.empty()) return;
-  std::vector<double> force;
-  for (const Moment& moment : moments_.front()) force.push_back(moment.force);
-  if (std::none_of(moments_.front().begin(), moments_.front().end(),
-                   [](const Moment& m) { return m.area > 0; }))
-    throw settings::InputError(bag_ + ": is a trial without load: no taxel reaches " +
-                               view::pressureText(options_.contact_threshold, options_.unit) +
-                               "; leave it out, or give a lower --contact");
-  const double threshold = std::isnan(options_.step_force) ? stepThreshold(force) : options_.step_force;
-  std::vector<Step> steps = findSteps(force, time_, threshold);
-  steps.insert(steps.begin(), {0, time_.size() - 1});
-  for (std::size_t r = 0; r < regions_.size(); ++r)
-    for (std::size_t s = 0; s < steps.size(); ++s) writeRow(regions_[r], moments_[r], s, steps[s], threshold);
-  time_.clear();
-}
-
-void TrialTable::writeRow(const std::string& region, const std::vector<Moment>& moments, std::size_t number,
-                          Step step, double step_force) {
-  constexpr double kNone = ScanRecord::kUnknown;
-  const Moment* highest = nullptr;
-  statistics::RunningMoments peaks, means;
-  double force = kNone, area = 0, at_least = 0;
-  for (std::size_t i = step.first; i <= step.second; ++i) {
-    const Moment& moment = moments[i];
-    if (!std::isnan(moment.peak) && (highest == nullptr || moment.peak > highest->peak)) highest = &moment;
-    force = std::fmax(force, moment.force);
-    area = std::max(area, moment.area);
-    at_least += moment.at_least;
-    if (!(moment.area > 0)) continue;
-    peaks.add(moment.peak);
-    means.add(moment.mean);
+  void add(const ScanRecord& scan) override {
+    const std::vector<RegionReading>& readings = reader_.read(scan);
+    if (readings.empty()) return;
+    const std::string surface = scan.surface ? scan.surface->name : "";
+    const std::uint32_t mount = scan.surface ? scan.surface->mount : 0;
+    if (time_.empty()) {
+      session_ = scan.session;
+      surface_ = surface;
+      mount_ = mount;
+      layout_ = scan.layout;
+      regions_.clear();
+      for (const RegionReading& reading : readings) regions_.push_back(regionName(reading.of));
+      moments_.assign(readings.size(), {});
+    }
+    if (session_ != scan.session) session_ = kSeveral;
+    if (surface_ != surface) surface_ = kSeveral;
+    if (mount_ != mount) mount_.reset();
+    time_.push_back(1e-9 * double(scan.since_ns));
+    for (std::size_t r = 0; r < readings.size(); ++r) {
+      const map::RegionStatistics& of = readings[r].of;
+      moments_[r].push_back({of.peak, readings[r].peak_deviation, of.mean, of.force, of.contact_area,
+                             of.peak_taxel, of.at_least > 0});
+    }
   }
-  const auto over = [&](auto value) {
-    return integral(time_, step, [&](std::size_t i) { return double(value(moments[i])); });
+
+  void finish() override {
+    writeRecording();
+    table_->finish();
+  }
+
+ private:
+  struct Moment {  // of a region in a scan
+    double peak, peak_deviation, mean, force, area;
+    matrix::TaxelIndex taxel;
+    bool at_least;
   };
-  table_->add(withSheet(
-      {bag_,
-       session_,
-       surface_,
-       mount_.value_or(0) > 0 ? double(*mount_) : kNone,
-       region,
-       double(number),
-       time_[step.first],
-       time_[step.second],
-       highest ? highest->peak * factor_ : kNone,
-       highest ? highest->peak_deviation * factor_ : kNone,
-       highest ? double(layout_.row(highest->taxel)) : kNone,
-       highest ? double(layout_.column(highest->taxel)) : kNone,
-       peaks.count > 0 ? peaks.mean * factor_ : kNone,
-       means.count > 0 ? means.mean * factor_ : kNone,
-       force,
-       over([](const Moment& m) { return m.force; }),
-       over([](const Moment& m) { return m.peak; }) * factor_,
-       over([](const Moment& m) { return m.area > 0; }),
-       std::isnan(options_.above) ? kNone : over([&](const Moment& m) { return m.peak >= options_.above; }),
-       area * 1e4,
-       at_least,
-       step_force,
-       options_.contact_threshold * factor_,
-       options_.above * factor_},
-      sheet_, options_));
-}
 
-void TrialTable::finish() {
-  writeRecording();
-  table_->finish();
+  void writeRecording() {
+    if (time_.empty()) return;
+    std::vector<double> force;
+    for (const Moment& moment : moments_.front()) force.push_back(moment.force);
+    if (std::none_of(moments_.front().begin(), moments_.front().end(),
+                     [](const Moment& m) { return m.area > 0; }))
+      throw settings::InputError(bag_ + ": is a trial without load: no taxel reaches " +
+                                 view::pressureText(options_.contact_threshold, options_.unit) +
+                                 "; leave it out, or give a lower --contact");
+    const double threshold = std::isnan(options_.step_force) ? stepThreshold(force) : options_.step_force;
+    std::vector<Step> steps = findSteps(force, time_, threshold);
+    steps.insert(steps.begin(), {0, time_.size() - 1});
+    for (std::size_t r = 0; r < regions_.size(); ++r)
+      for (std::size_t s = 0; s < steps.size(); ++s)
+        writeRow(regions_[r], moments_[r], s, steps[s], threshold);
+    time_.clear();
+  }
+
+  void writeRow(const std::string& region, const std::vector<Moment>& moments, std::size_t number, Step step,
+                double step_force) {
+    constexpr double kNone = ScanRecord::kUnknown;
+    const Moment* highest = nullptr;
+    statistics::RunningMoments peaks, means;
+    double force = kNone, area = 0, at_least = 0;
+    for (std::size_t i = step.first; i <= step.second; ++i) {
+      const Moment& moment = moments[i];
+      if (!std::isnan(moment.peak) && (highest == nullptr || moment.peak > highest->peak)) highest = &moment;
+      force = std::fmax(force, moment.force);
+      area = std::max(area, moment.area);
+      at_least += moment.at_least;
+      if (!(moment.area > 0)) continue;
+      peaks.add(moment.peak);
+      means.add(moment.mean);
+    }
+    const auto over = [&](auto value) {
+      return integral(time_, step, [&](std::size_t i) { return double(value(moments[i])); });
+    };
+    table_->add(withSheet(
+        {bag_,
+         session_,
+         surface_,
+         mount_.value_or(0) > 0 ? double(*mount_) : kNone,
+         region,
+         double(number),
+         time_[step.first],
+         time_[step.second],
+         highest ? highest->peak * factor_ : kNone,
+         highest ? highest->peak_deviation * factor_ : kNone,
+         highest ? double(layout_.row(highest->taxel)) : kNone,
+         highest ? double(layout_.column(highest->taxel)) : kNone,
+         peaks.count > 0 ? peaks.mean * factor_ : kNone,
+         means.count > 0 ? means.mean * factor_ : kNone,
+         force,
+         over([](const Moment& m) { return m.force; }),
+         over([](const Moment& m) { return m.peak; }) * factor_,
+         over([](const Moment& m) { return m.area > 0; }),
+         std::isnan(options_.above) ? kNone : over([&](const Moment& m) { return m.peak >= options_.above; }),
+         area * 1e4,
+         at_least,
+         step_force,
+         options_.contact_threshold * factor_,
+         options_.above * factor_},
+        sheet_, options_));
+  }
+
+  StatisticsOptions options_;
+  double factor_;  // of pressures in the table [unit / Pa]
+  RegionReader reader_;
+  std::unique_ptr<RowTable> table_;
+  std::string bag_, sheet_, session_, surface_;
+  std::optional<std::uint32_t> mount_;
+  matrix::Layout layout_;
+  std::vector<double> time_;                  // of each scan [s]
+  std::vector<std::string> regions_;          // names
+  std::vector<std::vector<Moment>> moments_;  // [regions][scans]
+};
+
+}  // namespace
+
+std::unique_ptr<ScanSink> openTrial(const std::string& output, const StatisticsOptions& options) {
+  return std::make_unique<TrialTable>(output, options);
 }
 
 }  // namespace fsr::exports

@@ -22,12 +22,7 @@ using test_support::outputOf;
 
 class CsvTable : public testing::Test {
  protected:
-  void write(const std::vector<fsr::exports::ScanRecord>& scans) {
-    fsr::exports::CsvTable table(path_);
-    table.begin(export_test::exampleSubject());
-    for (const fsr::exports::ScanRecord& scan : scans) table.add(scan);
-    table.finish();
-  }
+  void write(const std::vector<fsr::exports::ScanRecord>& scans) { export_test::write("csv", path_, scans); }
   std::vector<std::string> lines() const {
     std::ifstream file(path_);
     std::vector<std::string> lines;
@@ -124,9 +119,9 @@ TEST_F(CsvTable, IsCompressedIfItsNameEndsWithGz) {
 TEST_F(CsvTable, LeavesNoFileIfItIsNotFinishedOrTheDiskIsFull) {
   std::ofstream(path_) << "old,table";
   {
-    fsr::exports::CsvTable table(path_);
-    table.begin(export_test::exampleSubject());
-    table.add(exampleScan());
+    const auto table = export_test::opened("csv", path_);
+    table->begin(export_test::exampleSubject());
+    table->add(exampleScan());
   }
   EXPECT_TRUE(test_support::holds(test_support::refusal([&] {
                                     const test_support::FileSizeLimit limit(1000);

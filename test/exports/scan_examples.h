@@ -2,8 +2,11 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <string>
+#include <vector>
 
-#include "exports/scan_record.h"
+#include "exports/scan_formats.h"
 
 namespace export_test {
 
@@ -61,6 +64,27 @@ inline fsr::exports::ExportSubject exampleSubject() {
   subject.trained_low = 0;
   subject.trained_high = 620000;
   return subject;
+}
+
+/// Opens an output of the format of this name.
+inline std::unique_ptr<fsr::exports::ScanSink> opened(const std::string& format, const std::string& path,
+                                                      const fsr::exports::StatisticsOptions& options = {}) {
+  for (const fsr::exports::ScanFormat& known : fsr::exports::scanFormats()) {
+    if (known.name == format) return known.open(path, options);
+  }
+  return nullptr;
+}
+
+/// Writes a recording in the format of this name.
+inline void write(const std::string& format, const std::string& path,
+                  const std::vector<fsr::exports::ScanRecord>& scans,
+                  const fsr::exports::StatisticsOptions& options = {}, bool maps = true) {
+  const auto sink = opened(format, path, options);
+  fsr::exports::ExportSubject subject = exampleSubject();
+  subject.maps = maps;
+  sink->begin(subject);
+  for (const fsr::exports::ScanRecord& scan : scans) sink->add(scan);
+  sink->finish();
 }
 
 }  // namespace export_test

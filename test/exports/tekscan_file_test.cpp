@@ -20,12 +20,7 @@ using export_test::exampleScan;
 class TekscanFile : public testing::Test {
  protected:
   std::string write(const std::vector<fsr::exports::ScanRecord>& scans, bool maps) {
-    fsr::exports::TekscanFile file(path_);
-    fsr::exports::ExportSubject subject = export_test::exampleSubject();
-    subject.maps = maps;
-    file.begin(subject);
-    for (const fsr::exports::ScanRecord& scan : scans) file.add(scan);
-    file.finish();
+    export_test::write("tekscan", path_, scans, {}, maps);
     return test_support::contentOf(path_);
   }
 

@@ -8,7 +8,6 @@
 #include <fstream>
 #include <sstream>
 
-#include "exports/region_readings.h"
 #include "exports/scan_examples.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "support/content_of.h"
@@ -86,13 +85,10 @@ class RegionTables : public testing::Test {
     return scans;
   }
 
-  template <typename Table>
-  std::vector<std::string> lines(const std::vector<ScanRecord>& scans, const StatisticsOptions& options) {
+  std::vector<std::string> lines(const std::string& format, const std::vector<ScanRecord>& scans,
+                                 const StatisticsOptions& options) {
     const std::string path = folder_.path("table.csv");
-    Table table(path, options);
-    table.begin(export_test::exampleSubject());
-    for (const ScanRecord& scan : scans) table.add(scan);
-    table.finish();
+    export_test::write(format, path, scans, options);
     std::istringstream text(test_support::contentOf(path));
     std::vector<std::string> lines;
     for (std::string line; std::getline(text, line);) lines.push_back(line);
@@ -106,7 +102,7 @@ TEST_F(RegionTables, OfATrialHaveItsPeaksForcesAndIntegrals) {
   StatisticsOptions options;
   options.above = 45e3;
   // One step: 0, 20, 50, 100, 50, 20, 0 kPa on 4.8 cm2, between rests.
-  const std::vector<std::string> rows = lines<TrialTable>(scans({0, 0, 20, 50, 100, 50, 20, 0, 0}), options);
+  const std::vector<std::string> rows = lines("trial", scans({0, 0, 20, 50, 100, 50, 20, 0, 0}), options);
   ASSERT_EQ(rows.size(), 3u);
   EXPECT_EQ(
       rows[0],
@@ -125,7 +121,7 @@ TEST_F(RegionTables, OfATrialHaveItsPeaksForcesAndIntegrals) {
 }
 
 TEST_F(RegionTables, RefuseATrialWithoutLoad) {
-  const std::string refusal = test_support::refusal([&] { lines<TrialTable>(scans({0, 9, 0}), {}); });
+  const std::string refusal = test_support::refusal([&] { lines("trial", scans({0, 9, 0}), {}); });
   EXPECT_TRUE(test_support::holds(refusal, {"2_cylinder.bag", "without load", "10 kPa", "--contact"}))
       << refusal;
 }
@@ -133,7 +129,7 @@ TEST_F(RegionTables, RefuseATrialWithoutLoad) {
 TEST_F(RegionTables, AreInMillimetresOfMercuryWhereAsked) {
   StatisticsOptions options;
   options.unit = view::PressureUnit::kMillimetreOfMercury;
-  const std::vector<std::string> rows = lines<StatisticsTable>(scans({13.3322387415}), options);
+  const std::vector<std::string> rows = lines("statistics", scans({13.3322387415}), options);
   EXPECT_TRUE(test_support::holds(rows[0], {",peak_mmHg,", ",integral_mmHg_s,"}));
   EXPECT_TRUE(
       test_support::holds(rows[1], {",whole_matrix,100,15.00123,0,0,100,100,15.00123,6.399474,0.96,4.8,"}));
@@ -148,14 +144,14 @@ TEST_F(RegionTables, MarkWhatIsAtLeastAndKeepRegionsApart) {
   StatisticsOptions options;
   options.regions = folder_.path("regions.yaml");
   std::ofstream(options.regions) << "regions:\n  - {name: left, rows: [0, 1], columns: [0, 0]}\n";
-  const std::vector<std::string> rows = lines<StatisticsTable>(taken, options);
+  const std::vector<std::string> rows = lines("statistics", taken, options);
   ASSERT_EQ(rows.size(), 5u);
   EXPECT_TRUE(test_support::holds(rows[1], {",whole_matrix,620,2,1,2,"}));
   EXPECT_EQ(rows[1].substr(rows[1].size() - 7), ",1,0,OK");
   EXPECT_TRUE(test_support::holds(rows[2], {",left,50,2,0,0,"}));
   EXPECT_EQ(rows[2].substr(rows[2].size() - 7), ",0,0,OK");
   EXPECT_EQ(rows[4].substr(rows[4].size() - 7), ",0,1,OK") << "the dead taxel is in this region";
-  const std::vector<std::string> trial = lines<TrialTable>(taken, options);
+  const std::vector<std::string> trial = lines("trial", taken, options);
   EXPECT_TRUE(test_support::holds(trial[1], {",whole_matrix,0,", ",620,2,1,2,", ",4.8,1,"}))
       << "one scan of two";
   EXPECT_TRUE(test_support::holds(trial[2], {",left,0,", ",50,2,0,0,", ",1.6,0,"}));
@@ -165,7 +161,7 @@ TEST_F(RegionTables, MarkWhatIsAtLeastAndKeepRegionsApart) {
 TEST_F(RegionTables, BecomeATableByRegionAndSurfaceInR) {
   if (!test_support::hasProgram("Rscript"))
     GTEST_SKIP() << "Rscript is not installed (Debian package r-base-core): R was NOT tried";
-  lines<TrialTable>(scans({0, 0, 60, 0, 0, 80, 0, 0}), {});
+  lines("trial", scans({0, 0, 60, 0, 0, 80, 0, 0}), {});
   const auto r = test_support::outputOf("cd " + folder_.path() +
                                         " && Rscript -e 'print(aggregate(peak_kPa ~ region + surface, "
                                         "subset(read.csv(\"table.csv\"), step > 0), mean))'");
@@ -173,10 +169,7 @@ TEST_F(RegionTables, BecomeATableByRegionAndSurfaceInR) {
 }
 
 TEST_F(RegionTables, RefuseARecordingWithoutMaps) {
-  StatisticsTable table(folder_.path("a.csv"), {});
-  ExportSubject subject = export_test::exampleSubject();
-  subject.maps = false;
-  EXPECT_THROW(table.begin(subject), settings::InputError);
+  EXPECT_THROW(export_test::write("statistics", folder_.path("a.csv"), {}, {}, false), settings::InputError);
 }
 
 }  // namespace
