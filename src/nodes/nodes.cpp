@@ -9,14 +9,10 @@
 #include <string>
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "ros/driver/driver.h"
 #include "ros/live/parameters.h"
-#include "ros/live/rig_emulator.h"
 #include "ros/live/serve.h"
-#include "ros/recording/conduct_server.h"
-#include "ros/recording/rechecker.h"
+#include "ros/recording/procedures.h"
 #include "ros/recording/recorder.h"
-#include "ros/recording/session_server.h"
 #include "settings/foreign_error.h"
 
 namespace fsr_ros {
@@ -72,22 +68,14 @@ int train() {
 
 int conduct() {
   bool closed = true;
-  const int status = runNode([&] {
-    const auto server = waitForSession(ros::NodeHandle{}, ros::NodeHandle{"~"});
-    if (server == nullptr) return;
-    closeOnSignals();
-    ros::spin();
-    closed = server->finish();
-  });
+  const int status =
+      runNode([&] { closed = conductSession(ros::NodeHandle{}, ros::NodeHandle{"~"}, closeOnSignals); });
   return closed ? status : 1;
 }
 
-int recheck() {
+int recheckOnce() {
   bool done = false;
-  const int status = runNode([&] {
-    Rechecker rechecker(ros::NodeHandle{}, ros::NodeHandle{"~"});
-    done = rechecker.run(std::cout);
-  });
+  const int status = runNode([&] { done = recheck(ros::NodeHandle{}, ros::NodeHandle{"~"}, std::cout); });
   return status != 0 || done ? status : 1;
 }
 
@@ -110,12 +98,12 @@ int nodeMain(const std::string& name, int argc, char** argv) {
   static const std::map<std::string, int (*)()> nodes = {{"calibration", serve<makeCalibrationServer>},
                                                          {"conduct", conduct},
                                                          {"curvature", serve<makeCurvatureServer>},
-                                                         {"driver", serve<makeServer<Driver>>},
+                                                         {"driver", serve<makeDriver>},
                                                          {"limb", spin<makeLimbServer>},
-                                                         {"recheck", recheck},
+                                                         {"recheck", recheckOnce},
                                                          {"recorder", record},
-                                                         {"rig_emulator", spin<makeServer<RigEmulator>>},
-                                                         {"session", serve<makeServer<SessionServer>>},
+                                                         {"rig_emulator", spin<makeRigEmulator>},
+                                                         {"session", serve<makeSessionServer>},
                                                          {"training", train},
                                                          {"view", serve<makeViewServer>}};
   ros::init(argc, argv, name == "recorder" ? "record" : name);
@@ -159,7 +147,7 @@ class ServerNodelet : public nodelet::Nodelet {
   Server server_;
 };
 
-class DriverNodelet : public ServerNodelet<makeServer<Driver>> {};
+class DriverNodelet : public ServerNodelet<makeDriver> {};
 class CalibrationNodelet : public ServerNodelet<makeCalibrationServer> {};
 class ViewNodelet : public ServerNodelet<makeViewServer> {};
 

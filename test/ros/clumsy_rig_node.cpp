@@ -10,7 +10,7 @@ int main(int argc, char** argv) {
   ros::init(argc, argv, "rig_emulator");
   return fsr_ros::runNode([] {
     const ros::NodeHandle own("~");
-    const fsr_ros::RigEmulator rig(ros::NodeHandle{}, own, [&](const auto& person) {
+    const auto rig = fsr_ros::makeRigEmulator(ros::NodeHandle{}, own, [&](const auto& person) {
       test_support::ClumsyOptions options;
       options.person = person;
       options.script = own.param<std::string>("mistakes", "");

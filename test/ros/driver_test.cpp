@@ -12,7 +12,7 @@
 #include <memory>
 #include <string>
 
-#include "ros/driver/driver.h"
+#include "ros/live/serve.h"
 #include "support/board_packets.h"
 #include "support/diagnostics.h"
 #include "support/holds.h"
@@ -205,7 +205,7 @@ TEST(DriverReplay, GivesTheSameScansAsTheLiveBoard) {
   Listener<MatrixFrame> raw("replay/raw");
   ros::NodeHandle replay("replay_driver");
   replay.setParam("replay_file", parameter("capture"));
-  const fsr_ros::Driver driver(ros::NodeHandle("replay"), replay);
+  const fsr_ros::Server driver = fsr_ros::makeDriver(ros::NodeHandle("replay"), replay);
   ASSERT_TRUE(raw.has(206));
   for (std::uint32_t i = 0; i < 200; ++i) {
     ASSERT_EQ(raw.messages[i]->sequence, i + 1);

@@ -38,49 +38,6 @@ namespace fsr_ros {
 
 namespace {
 
-// The data of a bag other than its scans: chamber pressure and its cycles, temperature, board, session,
-// events and calibration. The bag is read once, from its beginning to its end.
-class ScanContext {
- public:
-  // `ambient`: ambient pressure [Pa]; none = the value in matrix_info, or 101325 without one. Throws
-  // fsr::InputError.
-  ScanContext(const rosbag::Bag& bag, const SensorTopics& topics, std::optional<double> ambient);
-
-  const fsr_pressure_map::MatrixInfo& board() const { return board_; }
-  const std::shared_ptr<const fsr::matrix::Surface>& firstSurface() const { return first_surface_; }
-  // Layout with the pitch in matrix_info, or the default pitch without one.
-  fsr::matrix::Layout layout(fsr::matrix::MatrixSize size) const;
-  // Description of the recording, without its name and `maps`.
-  fsr::exports::ExportSubject subject() const;
-  static void describe(const fsr_pressure_map::CalibrationInfo& info, fsr::exports::ExportSubject& subject);
-
-  // Interpolated to a stamp [degree Celsius]; NaN = not known.
-  double temperatureAt(std::int64_t stamp_ns) const;
-  // Fills in chamber pressure, session, cycle and event.
-  void complete(fsr::exports::ScanRecord& scan) const;
-
- private:
-  using Label = std::pair<std::int64_t, std::string>;  // stamp [ns], text that is valid from then on
-
-  void readBoard(const rosbag::Bag& bag, const SensorTopics& topics);
-  void readSeries(const rosbag::Bag& bag, const SensorTopics& topics);
-  void readLabels(const rosbag::Bag& bag, const SensorTopics& topics);
-  void findCycles(const std::vector<std::pair<std::int64_t, double>>& pressure);
-  template <typename Message, typename Take>
-  void forEach(const rosbag::Bag& bag, const SensorTopics& topics, const std::string& topic, Take take);
-
-  fsr_pressure_map::MatrixInfo board_;
-  fsr_pressure_map::CalibrationInfo calibration_;
-  double ambient_;  // [Pa]
-  std::shared_ptr<const fsr::matrix::Surface> first_surface_;
-  fsr::dataset::TimeSeries chamber_;  // absolute [Pa]
-  fsr::dataset::TimeSeries temperature_;
-  std::vector<std::int64_t> cycles_;  // stamp of the start of each cycle [ns]
-  std::vector<Label> sessions_;
-  std::vector<Label> events_;
-  MessageReader reader_;
-};
-
 constexpr std::int64_t kLongestGap = 2000000000;  // no interpolation between readings farther apart [ns]
 
 // The label that is valid at a stamp. `first_holds_before`: the first label is also valid before its own
@@ -100,196 +57,218 @@ std::vector<SensorTopics::Mark> sensorMarks(const std::string& map) {
           {map, ros::message_traits::datatype<fsr_pressure_map::PressureMap>()}};
 }
 
-ScanContext::ScanContext(const rosbag::Bag& bag, const SensorTopics& topics, std::optional<double> ambient) {
-  readBoard(bag, topics);
-  ambient_ = ambient                       ? *ambient
-             : board_.ambient_pressure > 0 ? board_.ambient_pressure
-                                           : fsr::dataset::kStandardAmbient;
-  readSeries(bag, topics);
-  readLabels(bag, topics);
-}
+// The data of a bag other than its scans: chamber pressure and its cycles, temperature, board, session,
+// events and calibration. The bag is read once, from its beginning to its end.
+class ScanContext {
+ public:
+  // `ambient`: ambient pressure [Pa]; none = the value in matrix_info, or 101325 without one. Throws
+  // fsr::InputError.
+  ScanContext(const rosbag::Bag& bag, const SensorTopics& topics, std::optional<double> ambient) {
+    readBoard(bag, topics);
+    ambient_ = ambient                       ? *ambient
+               : board_.ambient_pressure > 0 ? board_.ambient_pressure
+                                             : fsr::dataset::kStandardAmbient;
+    readSeries(bag, topics);
+    readLabels(bag, topics);
+  }
 
-// Calls `take` for each message of a topic, until it returns false.
-template <typename Message, typename Take>
-void ScanContext::forEach(const rosbag::Bag& bag, const SensorTopics& topics, const std::string& topic,
-                          Take take) {
-  if (topic.empty()) return;
-  topics.requireType(topic, ros::message_traits::datatype<Message>());
-  forEachMessage(bag, {topic}, [&](const rosbag::MessageInstance& message) {
-    return take(reader_.read<Message>(message));
-  });
-}
+  const fsr_pressure_map::MatrixInfo& board() const { return board_; }
+  const std::shared_ptr<const fsr::matrix::Surface>& firstSurface() const { return first_surface_; }
+  // Layout with the pitch in matrix_info, or the default pitch without one.
+  fsr::matrix::Layout layout(fsr::matrix::MatrixSize size) const {
+    fsr::matrix::Layout layout{size};
+    if (board_.pitch_x > 0) layout.pitch_x = board_.pitch_x;
+    if (board_.pitch_y > 0) layout.pitch_y = board_.pitch_y;
+    return layout;
+  }
 
-void ScanContext::readBoard(const rosbag::Bag& bag, const SensorTopics& topics) {
-  forEach<fsr_pressure_map::MatrixInfo>(bag, topics, topics.find("matrix_info"), [&](const auto& message) {
-    board_ = message;
-    return false;
-  });
-  forEach<fsr_pressure_map::CalibrationInfo>(bag, topics, topics.find("calibration_info"),
-                                             [&](const auto& message) {
-                                               calibration_ = message;
-                                               return calibration_.id.empty();
-                                             });
-  forEach<fsr_pressure_map::SurfaceCurvature>(
-      bag, topics, topics.find("curvature"), [&](const auto& message) {
-        first_surface_ = std::make_shared<fsr::matrix::Surface>(toSurface(message));
-        return false;
-      });
-}
+  // Description of the recording, without its name and `maps`.
+  fsr::exports::ExportSubject subject() const {
+    fsr::exports::ExportSubject subject;
+    subject.sensor = board_.sensor_id.empty() ? board_.serial : board_.sensor_id;
+    subject.model = board_.sensor_model;
+    if (!calibration_.id.empty()) describe(calibration_, subject);
+    return subject;
+  }
 
-void ScanContext::readSeries(const rosbag::Bag& bag, const SensorTopics& topics) {
-  std::vector<std::pair<std::int64_t, double>> pressure;
-  forEach<sensor_msgs::FluidPressure>(bag, topics, topics.find("chamber_pressure"), [&](const auto& message) {
-    chamber_.add(stampOf(message.header), message.fluid_pressure);
-    if (std::isfinite(message.fluid_pressure)) {
-      pressure.emplace_back(stampOf(message.header), message.fluid_pressure - ambient_);
+  static void describe(const fsr_pressure_map::CalibrationInfo& info, fsr::exports::ExportSubject& subject) {
+    subject.calibration = info.id;
+    subject.scheme = info.scheme;
+    subject.trained_low = info.pressure_low;
+    subject.trained_high = info.pressure_high;
+  }
+
+  // Interpolated to a stamp [degree Celsius]; NaN = not known.
+  double temperatureAt(std::int64_t stamp_ns) const {
+    return temperature_.empty() ? fsr::exports::ScanRecord::kUnknown : temperature_.nearby(stamp_ns);
+  }
+
+  // Fills in chamber pressure, session, cycle and event.
+  void complete(fsr::exports::ScanRecord& scan) const {
+    if (const auto pressure = chamber_.between(scan.stamp_ns, kLongestGap)) {
+      scan.chamber_pressure = *pressure - ambient_;
     }
-    return true;
-  });
-  forEach<sensor_msgs::Temperature>(bag, topics, topics.find("temperature"), [&](const auto& message) {
-    temperature_.add(stampOf(message.header), message.temperature);
-    return true;
-  });
-  chamber_.sort();
-  temperature_.sort();
-  std::sort(pressure.begin(), pressure.end());
-  findCycles(pressure);
-}
+    scan.session = at(sessions_, scan.stamp_ns, true);
+    scan.event = at(events_, scan.stamp_ns, false);
+    const auto cycle = std::upper_bound(cycles_.begin(), cycles_.end(), scan.stamp_ns) - cycles_.begin();
+    if (!cycles_.empty()) scan.cycle = static_cast<std::size_t>(std::max<std::ptrdiff_t>(cycle, 1));
+  }
 
-void ScanContext::findCycles(const std::vector<std::pair<std::int64_t, double>>& pressure) {
-  std::vector<double> values;
-  for (const auto& reading : pressure) values.push_back(reading.second);
-  for (const std::size_t first : fsr::dataset::findCycles(values).first)
-    cycles_.push_back(pressure[first].first);
-}
+ private:
+  using Label = std::pair<std::int64_t, std::string>;  // stamp [ns], text that is valid from then on
 
-void ScanContext::readLabels(const rosbag::Bag& bag, const SensorTopics& topics) {
-  // One session node serves all sheets of a recording; each may have events of its own besides.
-  const std::string session =
-      topics.findShared("session", ros::message_traits::datatype<fsr_pressure_map::Session>());
-  forEach<fsr_pressure_map::Session>(bag, topics, session, [&](const auto& message) {
-    if (sessions_.empty() || sessions_.back().second != message.session_id) {
-      sessions_.emplace_back(stampOf(message.header), message.session_id);
-    }
-    return true;
-  });
-  std::set<std::string> events = {topics.find("events")};
-  const std::string beside = session.substr(0, session.rfind('/') + 1) + "events";
-  if (!session.empty() && topics.has(beside)) events.insert(beside);
-  for (const std::string& topic : events) {
-    forEach<fsr_pressure_map::Event>(bag, topics, topic, [&](const auto& message) {
-      const bool edge = message.kind == "sync" && message.label.rfind("trigger ", 0) == 0;
-      if (edge) return true;  // many a second would hide the marks
-      events_.emplace_back(stampOf(message.header),
-                           message.kind + (message.label.empty() ? "" : ":" + message.label));
+  void readBoard(const rosbag::Bag& bag, const SensorTopics& topics) {
+    forEach<fsr_pressure_map::MatrixInfo>(bag, topics, topics.find("matrix_info"), [&](const auto& message) {
+      board_ = message;
+      return false;
+    });
+    forEach<fsr_pressure_map::CalibrationInfo>(bag, topics, topics.find("calibration_info"),
+                                               [&](const auto& message) {
+                                                 calibration_ = message;
+                                                 return calibration_.id.empty();
+                                               });
+    forEach<fsr_pressure_map::SurfaceCurvature>(
+        bag, topics, topics.find("curvature"), [&](const auto& message) {
+          first_surface_ = std::make_shared<fsr::matrix::Surface>(toSurface(message));
+          return false;
+        });
+  }
+
+  void readSeries(const rosbag::Bag& bag, const SensorTopics& topics) {
+    std::vector<std::pair<std::int64_t, double>> pressure;
+    forEach<sensor_msgs::FluidPressure>(
+        bag, topics, topics.find("chamber_pressure"), [&](const auto& message) {
+          chamber_.add(stampOf(message.header), message.fluid_pressure);
+          if (std::isfinite(message.fluid_pressure)) {
+            pressure.emplace_back(stampOf(message.header), message.fluid_pressure - ambient_);
+          }
+          return true;
+        });
+    forEach<sensor_msgs::Temperature>(bag, topics, topics.find("temperature"), [&](const auto& message) {
+      temperature_.add(stampOf(message.header), message.temperature);
       return true;
     });
+    chamber_.sort();
+    temperature_.sort();
+    std::sort(pressure.begin(), pressure.end());
+    findCycles(pressure);
   }
-  const auto earlier = [](const Label& a, const Label& b) { return a.first < b.first; };
-  std::stable_sort(sessions_.begin(), sessions_.end(), earlier);
-  std::stable_sort(events_.begin(), events_.end(), earlier);
-}
 
-fsr::matrix::Layout ScanContext::layout(fsr::matrix::MatrixSize size) const {
-  fsr::matrix::Layout layout{size};
-  if (board_.pitch_x > 0) layout.pitch_x = board_.pitch_x;
-  if (board_.pitch_y > 0) layout.pitch_y = board_.pitch_y;
-  return layout;
-}
-
-fsr::exports::ExportSubject ScanContext::subject() const {
-  fsr::exports::ExportSubject subject;
-  subject.sensor = board_.sensor_id.empty() ? board_.serial : board_.sensor_id;
-  subject.model = board_.sensor_model;
-  if (!calibration_.id.empty()) describe(calibration_, subject);
-  return subject;
-}
-
-void ScanContext::describe(const fsr_pressure_map::CalibrationInfo& info,
-                           fsr::exports::ExportSubject& subject) {
-  subject.calibration = info.id;
-  subject.scheme = info.scheme;
-  subject.trained_low = info.pressure_low;
-  subject.trained_high = info.pressure_high;
-}
-
-double ScanContext::temperatureAt(std::int64_t stamp_ns) const {
-  return temperature_.empty() ? fsr::exports::ScanRecord::kUnknown : temperature_.nearby(stamp_ns);
-}
-
-void ScanContext::complete(fsr::exports::ScanRecord& scan) const {
-  if (const auto pressure = chamber_.between(scan.stamp_ns, kLongestGap)) {
-    scan.chamber_pressure = *pressure - ambient_;
+  void readLabels(const rosbag::Bag& bag, const SensorTopics& topics) {
+    // One session node serves all sheets of a recording; each may have events of its own besides.
+    const std::string session =
+        topics.findShared("session", ros::message_traits::datatype<fsr_pressure_map::Session>());
+    forEach<fsr_pressure_map::Session>(bag, topics, session, [&](const auto& message) {
+      if (sessions_.empty() || sessions_.back().second != message.session_id) {
+        sessions_.emplace_back(stampOf(message.header), message.session_id);
+      }
+      return true;
+    });
+    std::set<std::string> events = {topics.find("events")};
+    const std::string beside = session.substr(0, session.rfind('/') + 1) + "events";
+    if (!session.empty() && topics.has(beside)) events.insert(beside);
+    for (const std::string& topic : events) {
+      forEach<fsr_pressure_map::Event>(bag, topics, topic, [&](const auto& message) {
+        const bool edge = message.kind == "sync" && message.label.rfind("trigger ", 0) == 0;
+        if (edge) return true;  // many a second would hide the marks
+        events_.emplace_back(stampOf(message.header),
+                             message.kind + (message.label.empty() ? "" : ":" + message.label));
+        return true;
+      });
+    }
+    const auto earlier = [](const Label& a, const Label& b) { return a.first < b.first; };
+    std::stable_sort(sessions_.begin(), sessions_.end(), earlier);
+    std::stable_sort(events_.begin(), events_.end(), earlier);
   }
-  scan.session = at(sessions_, scan.stamp_ns, true);
-  scan.event = at(events_, scan.stamp_ns, false);
-  const auto cycle = std::upper_bound(cycles_.begin(), cycles_.end(), scan.stamp_ns) - cycles_.begin();
-  if (!cycles_.empty()) scan.cycle = static_cast<std::size_t>(std::max<std::ptrdiff_t>(cycle, 1));
-}
+
+  void findCycles(const std::vector<std::pair<std::int64_t, double>>& pressure) {
+    std::vector<double> values;
+    for (const auto& reading : pressure) values.push_back(reading.second);
+    for (const std::size_t first : fsr::dataset::findCycles(values).first)
+      cycles_.push_back(pressure[first].first);
+  }
+
+  // Calls `take` for each message of a topic, until it returns false.
+  template <typename Message, typename Take>
+  void forEach(const rosbag::Bag& bag, const SensorTopics& topics, const std::string& topic, Take take) {
+    if (topic.empty()) return;
+    topics.requireType(topic, ros::message_traits::datatype<Message>());
+    forEachMessage(bag, {topic}, [&](const rosbag::MessageInstance& message) {
+      return take(reader_.read<Message>(message));
+    });
+  }
+
+  fsr_pressure_map::MatrixInfo board_;
+  fsr_pressure_map::CalibrationInfo calibration_;
+  double ambient_;  // [Pa]
+  std::shared_ptr<const fsr::matrix::Surface> first_surface_;
+  fsr::dataset::TimeSeries chamber_;  // absolute [Pa]
+  fsr::dataset::TimeSeries temperature_;
+  std::vector<std::int64_t> cycles_;  // stamp of the start of each cycle [ns]
+  std::vector<Label> sessions_;
+  std::vector<Label> events_;
+  MessageReader reader_;
+};
 
 // Computes the maps of recorded scans with a calibration file.
 class MapMaker {
  public:
   // Throws fsr::InputError.
-  MapMaker(const ScanSelection& selection, const fsr_pressure_map::MatrixInfo& board);
+  MapMaker(const ScanSelection& selection, const fsr_pressure_map::MatrixInfo& board) {
+    const bool one = selection.calibrations.size() == 1 && !selection.several_sheets;
+    std::string others;
+    for (const std::string& path : selection.calibrations) {
+      loaded_ = loadForUse(path, {});
+      const std::string& of = loaded_->info.sensor_serial;
+      if (one || (of == board.serial && !of.empty())) break;
+      others += (others.empty() ? "" : ", ") + path + " of " + (of.empty() ? "an unknown board" : of);
+      loaded_.reset();
+    }
+    if (selection.calibrations.empty()) return;
+    if (!loaded_) {
+      throw fsr::settings::InputError(
+          "the sheet " + selection.topics + " has the board " + (board.serial.empty() ? "-" : board.serial) +
+          ", but --calibration names " + others +
+          "; give the calibration of each sheet, separated by commas, or choose one sheet with --namespace");
+    }
+    const std::string& serial = loaded_->info.sensor_serial;
+    loaded_->calibrator.setWrongSensor(!serial.empty() && !board.serial.empty() && serial != board.serial);
+    if (board.mask.size() == loaded_->calibrator.layout().size.taxels()) {
+      loaded_->calibrator.setMask(board.mask);
+    }
+  }
 
   // Description of the calibration; nullptr without one.
   const fsr_pressure_map::CalibrationInfo* info() const { return loaded_ ? &loaded_->info : nullptr; }
 
   // Adds the map to a scan. The scans must come in time order. Throws fsr::InputError if the scan does not
   // fit the calibration.
-  void make(fsr::exports::ScanRecord& scan);
+  void make(fsr::exports::ScanRecord& scan) {
+    if (!loaded_ || scan.counts.empty()) return;
+    const double time = 1e-9 * static_cast<double>(scan.stamp_ns);
+    if (scan.surface != surface_ && scan.surface != nullptr) {
+      surface_ = scan.surface;
+      loaded_->calibrator.setSurface(*surface_, time);
+    }
+    loaded_->setTemperature(scan.temperature);
+    fsr::map::PressureMap map;
+    loaded_->calibrator.calibrate({scan.layout.size, scan.full_scale, scan.counts.data(), scan.counts.size()},
+                                  time, map);
+    if (map.state == fsr::map::MapState::kSizeMismatch) {
+      throw fsr::settings::InputError("the scans have " + fsr::matrix::sizeText(scan.layout.size) +
+                                      " taxels and up to " + std::to_string(scan.full_scale) +
+                                      " counts, but the calibration is for " +
+                                      fsr::matrix::sizeText(loaded_->calibrator.layout().size) +
+                                      " taxels or another full scale; give the calibration of this matrix");
+    }
+    scan.layout = map.layout;
+    scan.map = std::move(map);
+  }
 
  private:
   std::unique_ptr<LoadedCalibration> loaded_;
   std::shared_ptr<const fsr::matrix::Surface> surface_;
 };
-
-MapMaker::MapMaker(const ScanSelection& selection, const fsr_pressure_map::MatrixInfo& board) {
-  const bool one = selection.calibrations.size() == 1 && !selection.several_sheets;
-  std::string others;
-  for (const std::string& path : selection.calibrations) {
-    loaded_ = loadForUse(path, {});
-    const std::string& of = loaded_->info.sensor_serial;
-    if (one || (of == board.serial && !of.empty())) break;
-    others += (others.empty() ? "" : ", ") + path + " of " + (of.empty() ? "an unknown board" : of);
-    loaded_.reset();
-  }
-  if (selection.calibrations.empty()) return;
-  if (!loaded_) {
-    throw fsr::settings::InputError(
-        "the sheet " + selection.topics + " has the board " + (board.serial.empty() ? "-" : board.serial) +
-        ", but --calibration names " + others +
-        "; give the calibration of each sheet, separated by commas, or choose one sheet with --namespace");
-  }
-  const std::string& serial = loaded_->info.sensor_serial;
-  loaded_->calibrator.setWrongSensor(!serial.empty() && !board.serial.empty() && serial != board.serial);
-  if (board.mask.size() == loaded_->calibrator.layout().size.taxels()) {
-    loaded_->calibrator.setMask(board.mask);
-  }
-}
-
-void MapMaker::make(fsr::exports::ScanRecord& scan) {
-  if (!loaded_ || scan.counts.empty()) return;
-  const double time = 1e-9 * static_cast<double>(scan.stamp_ns);
-  if (scan.surface != surface_ && scan.surface != nullptr) {
-    surface_ = scan.surface;
-    loaded_->calibrator.setSurface(*surface_, time);
-  }
-  loaded_->setTemperature(scan.temperature);
-  fsr::map::PressureMap map;
-  loaded_->calibrator.calibrate({scan.layout.size, scan.full_scale, scan.counts.data(), scan.counts.size()},
-                                time, map);
-  if (map.state == fsr::map::MapState::kSizeMismatch) {
-    throw fsr::settings::InputError("the scans have " + fsr::matrix::sizeText(scan.layout.size) +
-                                    " taxels and up to " + std::to_string(scan.full_scale) +
-                                    " counts, but the calibration is for " +
-                                    fsr::matrix::sizeText(loaded_->calibrator.layout().size) +
-                                    " taxels or another full scale; give the calibration of this matrix");
-  }
-  scan.layout = map.layout;
-  scan.map = std::move(map);
-}
 
 constexpr std::int64_t kPatience = 2000000000;  // how long a scan waits for its map [ns]
 

@@ -50,11 +50,6 @@ constexpr char kSheetsTask[] = "sheets";
 using Server = std::shared_ptr<void>;
 using MakeServer = Server (*)(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle);
 
-template <typename Of>
-Server makeServer(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle) {
-  return std::make_shared<Of>(handle, private_handle);
-}
-
 /// Converts each scan on `raw` to a map on `pressure_map`, using `curvature`, `temperature` and
 /// `matrix_info`. Publishes `calibration_info` (latched and repeated each second) and diagnostics. Compares
 /// the surface with the sheet at rest: by itself with `chamber_pressure` and at each event doff on `events`.
@@ -78,11 +73,52 @@ Server makeCalibrationServer(const ros::NodeHandle& handle, const ros::NodeHandl
 /// `~surface_file` (keeps what ~set_surface said, for a node that died; see SurfaceMemory).
 Server makeCurvatureServer(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle);
 
+/// Reads a board and publishes `raw`, `chamber_pressure`, `temperature`, `events` (edges at its trigger
+/// input), `matrix_info` (latched and repeated each second) and diagnostics. The service `~set_enabled`
+/// closes and opens the port. Parameters: DriverSettings.
+///
+/// Packets are published from the thread of the link as they come, as shared pointers, so that nodelets of
+/// one manager receive them without a copy. Everything else runs in the callback queue of the node.
+///
+/// In simulated time the host time is the last value of /clock. Stamps are then rig time, as evenly spaced as
+/// the board made the scans, and early by about half a tick of /clock (see fsr::protocol::DeviceClock).
+/// If the port does not exist, the driver waits for it.
+Server makeDriver(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle);
+
 /// Combines the statistics of several sheets round one limb. Sums the topics in `~sheets` (separated by
 /// spaces or commas) by region name, and publishes `limb_statistics` for every message of any sheet. A sheet
 /// without a message for `~stale_after` [s] is left out of the sums, and every alarm that is not ALARM
 /// becomes UNKNOWN. Diagnostics report silent sheets, and two whose boards have one serial number.
 Server makeLimbServer(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle);
+
+/// The emulated rig as a node: a board behind a serial port, in a pressure chamber that is controlled by
+/// services.
+///
+/// Topic `~status` (std_msgs/String, latched): state and number of the run, "running 2", then "done 2"; "idle
+/// 0" before the first run. A script can wait for this message after it has called `~start`. At a time scale
+/// other than 1 the node also publishes `/clock` in rig time, which begins at the wall time of the start:
+/// before each scan is sent, and at least 250 times a second of wall time.
+///
+/// Services: `~start` (starts a new run of cycles with the present parameters `~chamber/`), `~stop`,
+/// `~set_surface`, `~set_damage` (true: damages the line as the present parameters `~damage/` say; false:
+/// ends the damage). The node does not publish `curvature`: when the surface changes, call the curvature node
+/// too, with the same surface and mount.
+/// `~set_trigger` makes an edge at the board's trigger input (true: rising).
+///
+/// With the parameter `~operator` a RigOperator works chamber and sheet; `~start`, `~stop` and `~set_surface`
+/// do not exist then.
+///
+/// Parameters: see launch/rig_emulator.launch and docs/nodes.md.
+Server makeRigEmulator(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle);
+
+/// Publishes the description of a recording, so that a bag can be understood without other files. `session`
+/// is latched and repeated each second; its fields are the private parameters of the same names. `events`
+/// gets one message for each call of `~mark`.
+///
+/// If `~bag` names the bag that is being recorded, `/diagnostics` and the log report whether it grows.
+///
+/// Persons are identified by a code only: `~subject_code` must match [A-Z]{1,3}[0-9]{2,4}.
+Server makeSessionServer(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle);
 
 /// Collects messages from the topics raw, chamber_pressure, curvature, temperature and matrix_info, sent by
 /// `rosbag play` or a rig. The service `~train` trains a calibration from them, and `~clear` removes them. If

@@ -1,15 +1,20 @@
 #include "ros/recording/session_server.h"
 
+#include <diagnostic_updater/diagnostic_updater.h>
 #include <fsr_pressure_map/Event.h>
+#include <fsr_pressure_map/Mark.h>
 
 #include <algorithm>
 #include <boost/algorithm/string/predicate.hpp>
 #include <filesystem>
+#include <memory>
 #include <regex>
 #include <string>
 #include <vector>
 
 #include "ros/bags/resource_path.h"
+#include "ros/live/parameters.h"
+#include "ros/live/serve.h"
 #include "settings/number_text.h"
 #include "settings/text.h"
 
@@ -105,58 +110,79 @@ void RecordingWatch::judge(const RecordingLook& look, double time,
   status.add("bytes a second", span > 0 ? static_cast<double>(last_->size - first_->size) / span : 0.0);
 }
 
-SessionServer::SessionServer(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle)
-    : handle_(handle), session_(readSession(private_handle)) {
-  session_publisher_ = handle_.advertise<fsr_pressure_map::Session>("session", 10, true);
-  event_publisher_ = handle_.advertise<fsr_pressure_map::Event>("events", 100);
-  ros::NodeHandle services(private_handle);
-  service_ = services.advertiseService("mark", &SessionServer::mark, this);
-  timer_ = handle_.createTimer(ros::Duration(1.0), [this](const ros::TimerEvent&) { publish(); });
-  publish();
-  const Parameters parameters(private_handle);
-  const std::string bag = resolveLaunchPath(parameters.text("bag", ""));
-  if (!bag.empty()) watchRecording(bag, parameters.number("min_space", 200, {0, 1e9, "MB"}));
-}
+namespace {
 
-void SessionServer::watchRecording(const std::string& bag, double least_space) {
-  recording_ =
-      std::make_unique<RecordingWatch>(static_cast<std::uint64_t>(least_space * 1e6), kGrowthPatience);
-  diagnostics_ = std::make_unique<diagnostic_updater::Updater>();
-  diagnostics_->setHardwareID(bag);
-  diagnostics_->add("recording", [this, bag](auto& status) { judgeRecording(bag, status); });
-  recording_timer_ = handle_.createWallTimer(
-      ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { diagnostics_->force_update(); });
-}
-
-void SessionServer::judgeRecording(const std::string& bag,
-                                   diagnostic_updater::DiagnosticStatusWrapper& status) {
-  recording_->judge(lookAtRecording(bag), ros::SteadyTime::now().toSec(), status);
-  if (status.level == diagnostic_msgs::DiagnosticStatus::ERROR) {
-    ROS_ERROR_STREAM_THROTTLE(kSessionComplaintPeriod, status.message);
+class SessionServer {
+ public:
+  // Throws fsr::InputError.
+  SessionServer(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle)
+      : handle_(handle), session_(readSession(private_handle)) {
+    session_publisher_ = handle_.advertise<fsr_pressure_map::Session>("session", 10, true);
+    event_publisher_ = handle_.advertise<fsr_pressure_map::Event>("events", 100);
+    ros::NodeHandle services(private_handle);
+    service_ = services.advertiseService("mark", &SessionServer::mark, this);
+    timer_ = handle_.createTimer(ros::Duration(1.0), [this](const ros::TimerEvent&) { publish(); });
+    publish();
+    const Parameters parameters(private_handle);
+    const std::string bag = resolveLaunchPath(parameters.text("bag", ""));
+    if (!bag.empty()) watchRecording(bag, parameters.number("min_space", 200, {0, 1e9, "MB"}));
   }
-}
 
-bool SessionServer::mark(fsr_pressure_map::Mark::Request& request,
-                         fsr_pressure_map::Mark::Response& response) {
-  response.success = std::find(kKinds.begin(), kKinds.end(), request.kind) != kKinds.end();
-  if (!response.success) {
-    response.message = "kind is '" + request.kind + "', but must be one of " + fsr::settings::joined(kKinds) +
-                       "; nothing was marked";
+ private:
+  bool mark(fsr_pressure_map::Mark::Request& request, fsr_pressure_map::Mark::Response& response) {
+    response.success = std::find(kKinds.begin(), kKinds.end(), request.kind) != kKinds.end();
+    if (!response.success) {
+      response.message = "kind is '" + request.kind + "', but must be one of " +
+                         fsr::settings::joined(kKinds) + "; nothing was marked";
+      return true;
+    }
+    fsr_pressure_map::Event event;
+    event.header.stamp = ros::Time::now();
+    event.kind = request.kind;
+    event.label = request.label;
+    event_publisher_.publish(event);
+    response.message = "marked " + request.kind + " '" + request.label + "' at " +
+                       std::to_string(event.header.stamp.toSec()) + " s on " + event_publisher_.getTopic();
     return true;
   }
-  fsr_pressure_map::Event event;
-  event.header.stamp = ros::Time::now();
-  event.kind = request.kind;
-  event.label = request.label;
-  event_publisher_.publish(event);
-  response.message = "marked " + request.kind + " '" + request.label + "' at " +
-                     std::to_string(event.header.stamp.toSec()) + " s on " + event_publisher_.getTopic();
-  return true;
-}
 
-void SessionServer::publish() {
-  session_.header.stamp = ros::Time::now();
-  session_publisher_.publish(session_);
+  void publish() {
+    session_.header.stamp = ros::Time::now();
+    session_publisher_.publish(session_);
+  }
+
+  void watchRecording(const std::string& bag, double least_space) {
+    recording_ =
+        std::make_unique<RecordingWatch>(static_cast<std::uint64_t>(least_space * 1e6), kGrowthPatience);
+    diagnostics_ = std::make_unique<diagnostic_updater::Updater>();
+    diagnostics_->setHardwareID(bag);
+    diagnostics_->add("recording", [this, bag](auto& status) { judgeRecording(bag, status); });
+    recording_timer_ = handle_.createWallTimer(
+        ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { diagnostics_->force_update(); });
+  }
+
+  void judgeRecording(const std::string& bag, diagnostic_updater::DiagnosticStatusWrapper& status) {
+    recording_->judge(lookAtRecording(bag), ros::SteadyTime::now().toSec(), status);
+    if (status.level == diagnostic_msgs::DiagnosticStatus::ERROR) {
+      ROS_ERROR_STREAM_THROTTLE(kSessionComplaintPeriod, status.message);
+    }
+  }
+
+  ros::NodeHandle handle_;
+  fsr_pressure_map::Session session_;
+  ros::Publisher session_publisher_;
+  ros::Publisher event_publisher_;
+  ros::ServiceServer service_;
+  ros::Timer timer_;
+  std::unique_ptr<RecordingWatch> recording_;
+  std::unique_ptr<diagnostic_updater::Updater> diagnostics_;
+  ros::WallTimer recording_timer_;
+};
+
+}  // namespace
+
+Server makeSessionServer(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle) {
+  return std::make_shared<SessionServer>(handle, private_handle);
 }
 
 }  // namespace fsr_ros

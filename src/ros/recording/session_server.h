@@ -1,16 +1,12 @@
 #pragma once
 
-#include <diagnostic_updater/diagnostic_updater.h>
-#include <fsr_pressure_map/Mark.h>
+#include <diagnostic_updater/DiagnosticStatusWrapper.h>
 #include <fsr_pressure_map/Session.h>
 #include <ros/node_handle.h>
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
-
-#include "ros/live/parameters.h"
 
 namespace fsr_ros {
 
@@ -53,34 +49,5 @@ class RecordingWatch {
 /// Reads the description of a recording from the parameters of a session node, whose namespace is that of
 /// `session_node`. Throws fsr::InputError.
 fsr_pressure_map::Session readSession(const ros::NodeHandle& session_node);
-
-/// Publishes the description of a recording, so that a bag can be understood without other files. `session`
-/// is latched and repeated each second; its fields are the private parameters of the same names. `events`
-/// gets one message for each call of `~mark`.
-///
-/// If `~bag` names the bag that is being recorded, `/diagnostics` and the log report whether it grows.
-///
-/// Persons are identified by a code only: `~subject_code` must match [A-Z]{1,3}[0-9]{2,4}.
-class SessionServer {
- public:
-  /// Throws fsr::InputError.
-  SessionServer(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle);
-
- private:
-  bool mark(fsr_pressure_map::Mark::Request& request, fsr_pressure_map::Mark::Response& response);
-  void publish();
-  void watchRecording(const std::string& bag, double least_space);
-  void judgeRecording(const std::string& bag, diagnostic_updater::DiagnosticStatusWrapper& status);
-
-  ros::NodeHandle handle_;
-  fsr_pressure_map::Session session_;
-  ros::Publisher session_publisher_;
-  ros::Publisher event_publisher_;
-  ros::ServiceServer service_;
-  ros::Timer timer_;
-  std::unique_ptr<RecordingWatch> recording_;
-  std::unique_ptr<diagnostic_updater::Updater> diagnostics_;
-  ros::WallTimer recording_timer_;
-};
 
 }  // namespace fsr_ros
