@@ -1,4 +1,5 @@
 #include <diagnostic_msgs/DiagnosticStatus.h>
+#include <diagnostic_updater/DiagnosticStatusWrapper.h>
 #include <ros/ros.h>
 
 #include <cstdint>
@@ -34,13 +35,6 @@ constexpr std::size_t kCountsInMemory = 64u << 20;  // [bytes]
 std::uint64_t number(const fsr::dataset::RecordingBuilder::Events& events) {
   return events.scans + events.chamber_pressures + events.surfaces + events.temperatures +
          events.descriptions;
-}
-
-diagnostic_msgs::KeyValue pair(const std::string& key, std::uint64_t value) {
-  diagnostic_msgs::KeyValue entry;
-  entry.key = key;
-  entry.value = std::to_string(value);
-  return entry;
 }
 
 std::string whatIsMissing(const fsr::dataset::RecordingBuilder::Events& events) {
@@ -196,23 +190,23 @@ class TrainingServer {
     const std::lock_guard<std::mutex> lock(gathering_);
     if (copying_) return;
     const fsr::dataset::RecordingBuilder::Events& events = builder_.events();
-    diagnostic_msgs::DiagnosticStatus status;
+    const std::string missing = whatIsMissing(events);
+    diagnostic_updater::DiagnosticStatusWrapper status;
     status.name = ros::this_node::getName();
-    status.message = whatIsMissing(events);
-    status.level = status.message.empty() ? diagnostic_msgs::DiagnosticStatus::OK
-                                          : diagnostic_msgs::DiagnosticStatus::WARN;
-    if (status.message.empty()) status.message = "ready to train";
-    status.values = {pair("raw", events.scans),
-                     pair("chamber_pressure", events.chamber_pressures),
-                     pair("curvature", events.surfaces),
-                     pair("temperature", events.temperatures),
-                     pair("matrix_info", events.descriptions),
-                     pair("left out", refused_)};
+    status.summary(
+        missing.empty() ? diagnostic_msgs::DiagnosticStatus::OK : diagnostic_msgs::DiagnosticStatus::WARN,
+        missing.empty() ? "ready to train" : missing);
+    status.add("raw", events.scans);
+    status.add("chamber_pressure", events.chamber_pressures);
+    status.add("curvature", events.surfaces);
+    status.add("temperature", events.temperatures);
+    status.add("matrix_info", events.descriptions);
+    status.add("left out", refused_);
     std::string shown;
     for (const diagnostic_msgs::KeyValue& value : status.values) shown += value.value + " ";
     if (shown == last_gathered_) return;
     last_gathered_ = shown;
-    gathered_.publish(status);
+    gathered_.publish<diagnostic_msgs::DiagnosticStatus>(status);
   }
 
   ros::NodeHandle handle_;
