@@ -46,18 +46,4 @@ void judgeScans(const DriverHealth& before, const DriverHealth& now, const Drive
 /// diagnostics above. Empty if good scans come, or if the port is not open, which linkSentence() says.
 std::string complaintOf(const DriverHealth& before, const DriverHealth& now, const DriverSettings& settings);
 
-bool speaksText(const DriverSettings& settings);
-
-/// Why lines of whole numbers between two samples gave no scan, and which parameter to set.
-std::string lineSentence(const DriverHealth& before, const DriverHealth& now, const DriverSettings& settings);
-
-/// Adds to `status` what is wrong with a board whose scans come: times of another unit than the parameter
-/// says, and scans that are not published because counts are above the full scale.
-void judgeLines(const DriverHealth& before, const DriverHealth& now, const DriverSettings& settings,
-                diagnostic_updater::DiagnosticStatusWrapper& status);
-
-/// Lists the lines that gave no scan, by cause.
-void addLineCounts(const fsr::protocol::LineCounts& lines,
-                   diagnostic_updater::DiagnosticStatusWrapper& status);
-
 }  // namespace fsr_ros
