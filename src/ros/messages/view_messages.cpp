@@ -295,8 +295,6 @@ fsr::map::RegionStatistics toStatistics(const fsr_pressure_map::PressureStatisti
 
 namespace {
 
-using visualization_msgs::Marker;
-
 // The scan is drawn this far behind the sheet, in the direction of the middle taxel. Without it the two,
 // which differ by hundredths of a millimetre, shine through each other in patches. About the thickness of a
 // sheet [m].
@@ -320,16 +318,6 @@ Vector toVector(const std::array<double, 3>& position) {
   return message;
 }
 
-Marker marker(const std_msgs::Header& header, int action) {
-  Marker result;
-  result.header = header;
-  result.ns = "mesh";
-  result.type = Marker::MESH_RESOURCE;
-  result.action = action;
-  result.pose.orientation.w = 1;
-  return result;
-}
-
 }  // namespace
 
 std::string fileUrl(const std::string& path) {
@@ -347,7 +335,7 @@ std::string fileUrl(const std::string& path) {
 }
 
 Marker toMarker(const std_msgs::Header& header, const fsr::matrix::MeshPlace& place) {
-  Marker result = marker(header, Marker::ADD);
+  Marker result = marker(header, "mesh", Marker::MESH_RESOURCE);
   const fsr::matrix::Pose mesh = fsr::matrix::inverse(place.matrix);
   result.pose.position = toVector<geometry_msgs::Point>(mesh.position);
   result.pose.position.z -= kBehind;
@@ -360,7 +348,11 @@ Marker toMarker(const std_msgs::Header& header, const fsr::matrix::MeshPlace& pl
 }
 
 Marker noMesh(const std_msgs::Header& header) {
-  return marker(header, Marker::DELETE);
+  Marker result = marker(header, "mesh", Marker::MESH_RESOURCE);
+  result.action = Marker::DELETE;
+  result.scale = {};
+  result.color = {};
+  return result;
 }
 
 geometry_msgs::TransformStamped toTransform(const std_msgs::Header& header, const std::string& mesh_frame,
