@@ -6,6 +6,7 @@
 #include <boost/algorithm/string/predicate.hpp>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <iomanip>
 #include <map>
 #include <optional>
@@ -97,26 +98,40 @@ class Course {
   std::vector<Times> messages_;
 };
 
+// Calls `take` for each message whose connection is `wanted`. The index tells where there is none, without a
+// walk through the bag.
+void forEachWanted(const std::string& path, const std::function<bool(const BagConnection&)>& wanted,
+                   const std::function<void(const BagConnection&, MessageBytes)>& take) {
+  tellingOfDamage(path, [&] {
+    const BagWalk bag(path);
+    std::map<std::uint32_t, BagConnection> connections;
+    for (const auto& known : bag.connections()) {
+      if (wanted(known.second)) connections.insert(known);
+    }
+    if (connections.empty()) return;
+    bag.run([&](std::uint32_t id, MessageBytes message) {
+      const auto connection = connections.find(id);
+      if (connection != connections.end()) take(connection->second, message);
+    });
+  });
+}
+
 }  // namespace
 
 std::vector<TopicCourse> topicCourses(const std::string& path) {
   std::vector<TopicCourse> result;
-  tellingOfDamage(path, [&] {
-    const BagWalk bag(path);
-    std::map<std::string, Course> courses;
-    std::optional<ros::Time> start;
-    bag.run([&](std::uint32_t id, MessageBytes message) {
-      const auto connection = bag.connections().find(id);
-      if (connection == bag.connections().end()) return;
-      const ros::Time arrival = receptionOf(message);
-      if (!start || arrival < *start) start = arrival;
-      courses.try_emplace(connection->second.topic, connection->second).first->second.add(message);
-    });
-    for (auto& [topic, course] : courses) {
-      result.push_back(course.finish(start->toSec()));
-      course = Course({});  // the times of one topic at a time
-    }
+  std::map<std::string, Course> courses;
+  std::optional<ros::Time> start;
+  const auto all = [](const BagConnection&) { return true; };
+  forEachWanted(path, all, [&](const BagConnection& connection, MessageBytes message) {
+    const ros::Time arrival = receptionOf(message);
+    if (!start || arrival < *start) start = arrival;
+    courses.try_emplace(connection.topic, connection).first->second.add(message);
   });
+  for (auto& [topic, course] : courses) {
+    result.push_back(course.finish(start->toSec()));
+    course = Course({});  // the times of one topic at a time
+  }
   return result;
 }
 
@@ -141,48 +156,35 @@ std::string topicsText(const std::vector<TopicCourse>& courses) {
 }
 
 std::string sessionUse(const std::string& path) {
+  using fsr_pressure_map::Session;
   std::string use;
-  tellingOfDamage(path, [&] {
-    const BagWalk bag(path);
-    std::optional<ros::Time> first;
-    bag.run([&](std::uint32_t id, MessageBytes message) {
-      const auto connection = bag.connections().find(id);
-      if (connection == bag.connections().end() ||
-          connection->second.type != ros::message_traits::datatype<fsr_pressure_map::Session>() ||
-          connection->second.md5sum != ros::message_traits::md5sum<fsr_pressure_map::Session>()) {
-        return;
-      }
-      if (first && receptionOf(message) >= *first) return;
-      first = receptionOf(message);
-      fsr_pressure_map::Session session;
-      readMessage(message.data, message.size, session);
-      use = session.use;
-    });
+  std::optional<ros::Time> first;
+  const auto isSession = [](const BagConnection& connection) {
+    return connection.type == ros::message_traits::datatype<Session>() &&
+           connection.md5sum == ros::message_traits::md5sum<Session>();
+  };
+  forEachWanted(path, isSession, [&](const BagConnection&, MessageBytes message) {
+    if (first && receptionOf(message) >= *first) return;
+    first = receptionOf(message);
+    Session session;
+    readMessage(message.data, message.size, session);
+    use = session.use;
   });
   return use;
 }
 
 std::vector<std::int64_t> eventTimes(const std::string& path, const std::string& kind) {
+  using fsr_pressure_map::Event;
   std::vector<std::int64_t> times;
-  tellingOfDamage(path, [&] {
-    const BagWalk bag(path);
-    const auto isEvent = [](const BagConnection& connection) {
-      return boost::ends_with(connection.topic, "events") &&
-             connection.type == ros::message_traits::datatype<fsr_pressure_map::Event>();
-    };
-    const auto& connections = bag.connections();
-    // The index tells that there is no event, without a walk through the bag.
-    if (std::none_of(connections.begin(), connections.end(),
-                     [&](const auto& known) { return isEvent(known.second); }))
-      return;
-    bag.run([&](std::uint32_t id, MessageBytes message) {
-      const auto connection = connections.find(id);
-      if (connection == connections.end() || !isEvent(connection->second)) return;
-      requireDefinition<fsr_pressure_map::Event>(connection->second.topic, connection->second.md5sum);
-      fsr_pressure_map::Event event;
-      readMessage(message.data, message.size, event);
-      if (event.kind == kind) times.push_back(static_cast<std::int64_t>(event.header.stamp.toNSec()));
-    });
+  const auto isEvent = [](const BagConnection& connection) {
+    return boost::ends_with(connection.topic, "events") &&
+           connection.type == ros::message_traits::datatype<Event>();
+  };
+  forEachWanted(path, isEvent, [&](const BagConnection& connection, MessageBytes message) {
+    requireDefinition<Event>(connection.topic, connection.md5sum);
+    Event event;
+    readMessage(message.data, message.size, event);
+    if (event.kind == kind) times.push_back(stampOf(event.header));
   });
   std::sort(times.begin(), times.end());
   return times;

@@ -1,7 +1,6 @@
 #include <fsr_pressure_map/MatrixFrame.h>
 #include <fsr_pressure_map/MatrixInfo.h>
 #include <rosbag/bag.h>
-#include <rosbag/view.h>
 
 #include <algorithm>
 #include <cmath>
@@ -255,13 +254,11 @@ void copyBag(SimulatedScans& scans, const std::string& from, const std::string& 
   BagWriter out(to);
   withSoundBag(from, [&](const rosbag::Bag& bag) {
     Copier copier(settings, topics, scans, out);
-    rosbag::View view(bag);
-    const double all = view.size();
-    double copied = 0;
-    for (const rosbag::MessageInstance& instance : view) {
+    const auto copy = [&](const rosbag::MessageInstance& instance) {
       copier.copy(instance);
-      if (progress) progress(++copied / all);
-    }
+      return true;
+    };
+    forEachMessage(bag, {}, copy, progress);
   });
   out.close();
 }
