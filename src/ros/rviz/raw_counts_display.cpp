@@ -35,20 +35,77 @@ class RawCountsDisplay : public SheetDisplay {
   Q_OBJECT
 
  public:
-  RawCountsDisplay();
+  RawCountsDisplay() : SheetDisplay("scan") {
+    addSource(ros::message_traits::datatype<fsr_pressure_map::MatrixFrame>(), "Raw scans to show.");
+    high_ = new rviz::FloatProperty("High (counts)", 0,
+                                    "Counts at the bright end; 0 = full scale of the converter.", this,
+                                    SLOT(updateStyle()));
+    high_->setMin(0);
+    addLook();
+  }
 
  protected:
-  ros::Subscriber listen(const std::string& topic) override;
-  void paint(SheetPicture& picture) override;
-  fsr::view::Legend legend() const override;
-  ReadOut readOut(std::size_t taxel) const override;
-  void sayState() override;
+  ros::Subscriber listen(const std::string& topic) override {
+    infos_ = update_nh_.subscribe(besideTopic("matrix_info"), kQueueSize, &RawCountsDisplay::onInfo, this);
+    return update_nh_.subscribe(topic, kQueueSize, &RawCountsDisplay::onScan, this);
+  }
+
+  void paint(SheetPicture& picture) override {
+    const fsr::matrix::Layout layout = layoutOf(*last_, info_);
+    const std::size_t taxels = layout.size.taxels();
+    if (taxels == 0 || last_->counts.size() != taxels) {
+      throw fsr::settings::InputError("a scan of " + fsr::matrix::sizeText(layout.size) + " taxels has " +
+                                      std::to_string(last_->counts.size()) +
+                                      " counts, but must have one for each taxel");
+    }
+    full_scale_ = last_->full_scale;
+    picture.layout = layout;
+    picture.values.assign(last_->counts.begin(), last_->counts.end());
+    picture.looks.clear();
+    for (const std::uint16_t count : last_->counts) {
+      picture.looks.push_back(count >= last_->full_scale ? fsr::view::TaxelLook::kSaturated
+                                                         : fsr::view::TaxelLook::kGood);
+    }
+    picture.scale = scale();
+  }
+
+  fsr::view::Legend legend() const override {
+    fsr::view::Legend legend;
+    legend.scale = scale();
+    legend.title = "raw reading";
+    legend.lines = {last_ ? "not calibrated" : "waiting for scans"};
+    return legend;
+  }
+
+  ReadOut readOut(std::size_t taxel) const override {
+    // The reading that is drawn: a later scan may have come, or may be invalid.
+    return {{"Raw reading", std::to_string(std::lround(picture().values[taxel])) + " of " +
+                                std::to_string(full_scale_) + " counts"}};
+  }
+
+  void sayState() override {
+    say("State", {rviz::StatusProperty::Ok, "raw counts of the converter, not pressure"});
+    say("Taxels", taxelStatus(picture().looks));
+  }
+
   void forget() override { last_.reset(); }
 
  private:
-  void onScan(const fsr_pressure_map::MatrixFrameConstPtr& message);
+  void onScan(const fsr_pressure_map::MatrixFrameConstPtr& message) {
+    last_ = message;
+    received(message->header);
+  }
+
   void onInfo(const fsr_pressure_map::MatrixInfoConstPtr& message) { info_ = message; }
-  fsr::view::PressureScale scale() const;
+
+  fsr::view::PressureScale scale() const {
+    const double full_scale = last_ && last_->full_scale > 0 ? last_->full_scale : kUsualFullScale;
+    fsr::view::PressureScale scale;
+    scale.high = high_->getFloat() > 0 ? double(high_->getFloat()) : full_scale;
+    scale.unit = fsr::view::PressureUnit::kCount;
+    scale.colours = colours();
+    return scale;
+  }
 
   rviz::FloatProperty* high_;
   ros::Subscriber infos_;
@@ -56,72 +113,6 @@ class RawCountsDisplay : public SheetDisplay {
   fsr_pressure_map::MatrixFrameConstPtr last_;
   int full_scale_ = 0;  // full scale of the scan that is drawn [counts]
 };
-
-RawCountsDisplay::RawCountsDisplay() : SheetDisplay("scan") {
-  addSource(ros::message_traits::datatype<fsr_pressure_map::MatrixFrame>(), "Raw scans to show.");
-  high_ = new rviz::FloatProperty("High (counts)", 0,
-                                  "Counts at the bright end; 0 = full scale of the converter.", this,
-                                  SLOT(updateStyle()));
-  high_->setMin(0);
-  addLook();
-}
-
-ros::Subscriber RawCountsDisplay::listen(const std::string& topic) {
-  infos_ = update_nh_.subscribe(besideTopic("matrix_info"), kQueueSize, &RawCountsDisplay::onInfo, this);
-  return update_nh_.subscribe(topic, kQueueSize, &RawCountsDisplay::onScan, this);
-}
-
-void RawCountsDisplay::onScan(const fsr_pressure_map::MatrixFrameConstPtr& message) {
-  last_ = message;
-  received(message->header);
-}
-
-fsr::view::PressureScale RawCountsDisplay::scale() const {
-  const double full_scale = last_ && last_->full_scale > 0 ? last_->full_scale : kUsualFullScale;
-  fsr::view::PressureScale scale;
-  scale.high = high_->getFloat() > 0 ? double(high_->getFloat()) : full_scale;
-  scale.unit = fsr::view::PressureUnit::kCount;
-  scale.colours = colours();
-  return scale;
-}
-
-void RawCountsDisplay::paint(SheetPicture& picture) {
-  const fsr::matrix::Layout layout = layoutOf(*last_, info_);
-  const std::size_t taxels = layout.size.taxels();
-  if (taxels == 0 || last_->counts.size() != taxels) {
-    throw fsr::settings::InputError("a scan of " + fsr::matrix::sizeText(layout.size) + " taxels has " +
-                                    std::to_string(last_->counts.size()) +
-                                    " counts, but must have one for each taxel");
-  }
-  full_scale_ = last_->full_scale;
-  picture.layout = layout;
-  picture.values.assign(last_->counts.begin(), last_->counts.end());
-  picture.looks.clear();
-  for (const std::uint16_t count : last_->counts) {
-    picture.looks.push_back(count >= last_->full_scale ? fsr::view::TaxelLook::kSaturated
-                                                       : fsr::view::TaxelLook::kGood);
-  }
-  picture.scale = scale();
-}
-
-fsr::view::Legend RawCountsDisplay::legend() const {
-  fsr::view::Legend legend;
-  legend.scale = scale();
-  legend.title = "raw reading";
-  legend.lines = {last_ ? "not calibrated" : "waiting for scans"};
-  return legend;
-}
-
-ReadOut RawCountsDisplay::readOut(std::size_t taxel) const {
-  // The reading that is drawn: a later scan may have come, or may be invalid.
-  return {{"Raw reading", std::to_string(std::lround(picture().values[taxel])) + " of " +
-                              std::to_string(full_scale_) + " counts"}};
-}
-
-void RawCountsDisplay::sayState() {
-  say("State", {rviz::StatusProperty::Ok, "raw counts of the converter, not pressure"});
-  say("Taxels", taxelStatus(picture().looks));
-}
 
 }  // namespace fsr_rviz
 
