@@ -87,9 +87,7 @@ bool ViewFitter::fit(rviz::DisplayContext& context, const std::vector<Vector3>& 
   last_ = nearest(now, points, {high * panel->width() / panel->height(), high}, panel->size(), legend);
   if (!last_ || same(now, *last_)) return true;
   view->subProp("Distance")->setValue(last_->distance);
-  focus->setVector(Ogre::Vector3(static_cast<float>(last_->focus.x), static_cast<float>(last_->focus.y),
-                                 static_cast<float>(last_->focus.z)) -
-                   *origin);
+  focus->setVector(toOgre(last_->focus) - *origin);
   return true;
 }
 
@@ -360,9 +358,7 @@ std::vector<fsr::view::Vector3> SheetDisplay::outline() const {
   std::vector<fsr::view::Vector3> points = letter_text_->outline(*shown_.mesh);
   if (!title_->getStdString().empty()) points.push_back({0, -SheetTitle::reach(shown_.picture.layout), 0});
   for (fsr::view::Vector3& point : points) {
-    const Ogre::Vector3 local(static_cast<float>(point.x), static_cast<float>(point.y),
-                              static_cast<float>(point.z));
-    const Ogre::Vector3 at = scene_node_->getPosition() + scene_node_->getOrientation() * local;
+    const Ogre::Vector3 at = scene_node_->getPosition() + scene_node_->getOrientation() * toOgre(point);
     point = {double(at.x), double(at.y), double(at.z)};
   }
   return points;

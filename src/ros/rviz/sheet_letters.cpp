@@ -8,6 +8,8 @@
 #include <array>
 #include <cmath>
 
+#include "ros/rviz/sheet_visual.h"
+
 namespace fsr_rviz {
 
 namespace {
@@ -102,8 +104,7 @@ void Words::setText(const std::string& text) {
 
 void Words::show(double height, const Vector3& middle) {
   text_->setCharacterHeight(static_cast<Ogre::Real>(height));
-  node_->setPosition(static_cast<Ogre::Real>(middle.x), static_cast<Ogre::Real>(middle.y),
-                     static_cast<Ogre::Real>(middle.z));
+  node_->setPosition(toOgre(middle));
   node_->setVisible(true);
 }
 

@@ -16,11 +16,7 @@ constexpr double kMarkLift =
     0.0004;  // height of the strokes above the surface, so that they stay visible [m]
 constexpr double kStrokeWidth = 0.06;  // width of a stroke, as a part of a taxel's side
 
-Ogre::Vector3 toOgre(const fsr::view::Vector3& v) {
-  return {static_cast<Ogre::Real>(v.x), static_cast<Ogre::Real>(v.y), static_cast<Ogre::Real>(v.z)};
-}
-
-Ogre::ColourValue toOgre(fsr::view::Colour c) {
+Ogre::ColourValue ogreColour(fsr::view::Colour c) {
   return Ogre::ColourValue(static_cast<float>(c.red) / 255, static_cast<float>(c.green) / 255,
                            static_cast<float>(c.blue) / 255);
 }
@@ -119,7 +115,7 @@ void SheetVisual::draw(const fsr::view::SheetMesh& mesh, const std::vector<fsr::
   sheet_->estimateVertexCount(colours.size());
   for (std::size_t i = 0; i < colours.size(); ++i) {
     sheet_->position(toOgre(mesh.corners()[i]));
-    sheet_->colour(toOgre(colours[i]));
+    sheet_->colour(ogreColour(colours[i]));
   }
   sheet_->end();
 }
@@ -135,7 +131,7 @@ void SheetVisual::drawMarks(const SheetPicture& picture, const fsr::view::SheetM
     const auto under = std::isnan(value) ? fsr::view::kNoReadingColour : picture.scale.colour(value);
     for (const fsr::view::Stroke& stroke : strokes) {
       addBand(*marks_, mesh, picture.layout.row({i}), picture.layout.column({i}), stroke,
-              toOgre(fsr::view::markColour(under)));
+              ogreColour(fsr::view::markColour(under)));
     }
   }
   if (any) marks_->end();

@@ -2,6 +2,7 @@
 
 #include <OgreMaterial.h>
 #include <OgrePrerequisites.h>
+#include <OgreSceneNode.h>
 
 #include <string>
 #include <vector>
@@ -12,6 +13,10 @@
 #include "view/taxel_look.h"
 
 namespace fsr_rviz {
+
+inline Ogre::Vector3 toOgre(const fsr::view::Vector3& v) {
+  return {static_cast<Ogre::Real>(v.x), static_cast<Ogre::Real>(v.y), static_cast<Ogre::Real>(v.z)};
+}
 
 /// The values that are drawn on a sheet: pressure, its standard deviation, or counts.
 struct SheetPicture {

@@ -6,8 +6,6 @@
 
 namespace fsr_rviz {
 
-namespace {}  // namespace
-
 TaxelSelection::TaxelSelection(rviz::DisplayContext* context, SheetVisual& visual, const ShownSheet& shown,
                                std::function<ReadOut(std::size_t taxel)> read_out)
     : SelectionHandler(context), visual_(visual), shown_(shown), read_out_(std::move(read_out)) {}
@@ -62,9 +60,7 @@ void TaxelSelection::getAABBs(const rviz::Picked& picked, rviz::V_AABB& boxes) {
     Ogre::AxisAlignedBox box;
     const std::size_t corners = shown_.mesh->cornersOfTaxel();
     for (std::size_t i = taxel * corners; i < (taxel + 1) * corners; ++i) {
-      const fsr::view::Vector3& v = shown_.mesh->corners()[i];
-      const Ogre::Vector3 corner(static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z));
-      box.merge(visual_.node()->convertLocalToWorldPosition(corner));
+      box.merge(visual_.node()->convertLocalToWorldPosition(toOgre(shown_.mesh->corners()[i])));
     }
     boxes.push_back(box);
   }
