@@ -1,6 +1,7 @@
 #include <fsr_pressure_map/MatrixFrame.h>
 #include <fsr_pressure_map/MatrixInfo.h>
 #include <rosbag/bag.h>
+#include <rosbag/view.h>
 
 #include <algorithm>
 #include <cmath>
@@ -254,11 +255,13 @@ void copyBag(SimulatedScans& scans, const std::string& from, const std::string& 
   BagWriter out(to);
   withSoundBag(from, [&](const rosbag::Bag& bag) {
     Copier copier(settings, topics, scans, out);
-    const auto copy = [&](const rosbag::MessageInstance& instance) {
+    rosbag::View view(bag);
+    const double all = view.size();
+    double copied = 0;
+    for (const rosbag::MessageInstance& instance : view) {
       copier.copy(instance);
-      return true;
-    };
-    forEachMessage(bag, {}, copy, progress);
+      if (progress) progress(++copied / all);
+    }
   });
   out.close();
 }
