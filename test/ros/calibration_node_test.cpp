@@ -29,7 +29,7 @@ using test_support::knownPressure;
 using test_support::kRigFullScale;
 using test_support::kRigTaxels;
 
-const fs::path kFolder = fsr_ros::rosHome() + "/calibration_test";  // as in calibration.test
+const fs::path kFolder = fsr_ros::rosHome() + "/calibration_test";  // as in calibration.test; new in each run
 const std::string kFile = kFolder / "calibration.h5";
 const std::string kTareFile = kFolder / "tare.yaml";
 const fsr::matrix::MatrixSize kSize{test_support::kRigRows, test_support::kRigColumns};
@@ -70,6 +70,11 @@ bool contains(const std::string& text, const std::string& part) {
 /// Every test starts with a flat surface, the right board, no mask and no tare.
 class CalibrationNode : public testing::Test {
  protected:
+  static void SetUpTestSuite() {
+    fs::remove_all(kFolder);
+    fs::create_directories(kFolder);
+  }
+
   void SetUp() override {
     ASSERT_TRUE(rig.connected());
     if (!fs::exists(kFile)) return;
@@ -403,6 +408,8 @@ TEST_F(CalibrationNode, ReportsErrorsInDiagnostics) {
 /// The second node: it fills bad taxels, and its curvature is stale after 3 s.
 class FillingNode : public testing::Test {
  protected:
+  static void TearDownTestSuite() { fs::remove_all(kFolder); }
+
   void SetUp() override {
     ASSERT_TRUE(rig.connected());
     rig.identify("board-1");
@@ -440,14 +447,3 @@ TEST_F(FillingNode, FillsADeadAndAStuckTaxelFromTheirNeighbours) {
 }
 
 }  // namespace
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "calibration_node_test");
-  fs::remove_all(kFolder);
-  fs::create_directories(kFolder);
-  const ros::NodeHandle keep_alive;
-  const int result = RUN_ALL_TESTS();
-  fs::remove_all(kFolder);
-  return result;
-}

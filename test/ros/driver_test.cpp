@@ -201,7 +201,12 @@ TEST_F(DriverNode, ClosesAndOpensThePortByService) {
   EXPECT_TRUE(diagnostics().awaitOpenPort("fsr/driver"));
 }
 
-TEST(DriverReplay, GivesTheSameScansAsTheLiveBoard) {
+class DriverReplay : public testing::Test {
+ protected:
+  ~DriverReplay() override { std::remove(parameter("capture").c_str()); }
+};
+
+TEST_F(DriverReplay, GivesTheSameScansAsTheLiveBoard) {
   Listener<MatrixFrame> raw("replay/raw");
   ros::NodeHandle replay("replay_driver");
   replay.setParam("replay_file", parameter("capture"));
@@ -245,13 +250,3 @@ TEST_F(DriverNode, RefusesAReplayThatIsNoCapture) {
 }
 
 }  // namespace
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "driver_test");
-  const ros::NodeHandle keeps_ros_running;
-  diagnostics();
-  const int status = RUN_ALL_TESTS();
-  std::remove(parameter("capture").c_str());
-  return status;
-}

@@ -25,9 +25,9 @@ using fsr_pressure_map::PressureMap;
 using test_support::await;
 using test_support::Listener;
 
-const std::string kFolder = fsr_ros::rosHome() + "/looped_bag_test";  // as in looped_bag.test
-const std::string kBag = kFolder + "/loop.bag";
-const fsr::matrix::MatrixSize kSize{3, 4};
+const std::string kLoopFolder = fsr_ros::rosHome() + "/looped_bag_test";  // as in looped_bag.test
+const std::string kBag = kLoopFolder + "/loop.bag";
+const fsr::matrix::MatrixSize kLoopSize{3, 4};
 constexpr std::uint16_t kFullScale = 1023;
 constexpr std::int64_t kStart = 1'500'000'000'000'000'000;  // [ns]
 constexpr std::int64_t kScanPeriod = 20'000'000;            // [ns]
@@ -37,14 +37,15 @@ constexpr std::int64_t kCurvatureAt =
 constexpr double kStaleFrom = 2.0;  // [s] since kStart: ages start from 0 in each round
 
 void writeLoop() {
+  std::filesystem::create_directories(kLoopFolder);
   fsr_ros::BagWriter bag(kBag);
   for (int i = 0; i < kScans; ++i) {
     if (i * kScanPeriod == kCurvatureAt) {
       bag.addSurface(kStart + kCurvatureAt, {"flat", 1, {fsr::matrix::Curvature{}}, {}});
     }
-    const std::vector<std::uint16_t> counts(kSize.taxels(), static_cast<std::uint16_t>(300 + i));
+    const std::vector<std::uint16_t> counts(kLoopSize.taxels(), static_cast<std::uint16_t>(300 + i));
     bag.addScan(kStart + i * kScanPeriod, static_cast<std::uint32_t>(i),
-                {kSize, kFullScale, counts.data(), counts.size()});
+                {kLoopSize, kFullScale, counts.data(), counts.size()});
   }
   bag.close();
 }
@@ -81,6 +82,9 @@ bool isTheTables(const PressureMap& map, std::uint16_t code) {
 }
 
 TEST(LoopedBag, ContinuesInEachRoundWithoutStateOfTheRoundBefore) {
+  writeLoop();
+  fsr::calibration::saveCalibration(test_support::smallCalibration(kLoopSize, {0.0, 10.0}, "", kFullScale),
+                                    kLoopFolder + "/calibration.h5");
   const Listener<PressureMap> maps("pressure_map");
   const Listener<fsr_pressure_map::PressureStatisticsArray> statistics("statistics");
   ASSERT_TRUE(maps.connected());
@@ -123,14 +127,3 @@ TEST(LoopedBag, ContinuesInEachRoundWithoutStateOfTheRoundBefore) {
 }
 
 }  // namespace
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "looped_bag_test");
-  const ros::NodeHandle keeps_ros_running;
-  std::filesystem::create_directories(kFolder);
-  writeLoop();
-  fsr::calibration::saveCalibration(test_support::smallCalibration(kSize, {0.0, 10.0}, "", kFullScale),
-                                    kFolder + "/calibration.h5");
-  return RUN_ALL_TESTS();
-}

@@ -62,6 +62,12 @@ int pidOf(const std::string& node) {
 
 class RigFaults : public testing::Test {
  protected:
+  static void SetUpTestSuite() {
+    const std::filesystem::path folder = fsr_ros::rosHome() + "/faults_test";  // as in rig_faults.test
+    std::filesystem::create_directories(folder);
+    fsr::calibration::saveCalibration(test_support::smallCalibration({3, 4}, {0.0, 10.0}, "A", 4095),
+                                      folder / "calibration.h5");
+  }
   void SetUp() override {
     board_ = makeBoard("A");
     ASSERT_TRUE(calibratedMaps(5));
@@ -150,14 +156,3 @@ TEST_F(RigFaults, TheLossesOfABadLineAreCountedInDiagnostics) {
 }
 
 }  // namespace
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "rig_faults_test");
-  const ros::NodeHandle keeps_ros_running;
-  const std::filesystem::path folder = fsr_ros::rosHome() + "/faults_test";
-  std::filesystem::create_directories(folder);
-  fsr::calibration::saveCalibration(test_support::smallCalibration({3, 4}, {0.0, 10.0}, "A", 4095),
-                                    folder / "calibration.h5");
-  return RUN_ALL_TESTS();
-}

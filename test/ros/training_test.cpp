@@ -16,15 +16,14 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
-#include <sstream>
 
 #include "compensation/training_statistics.h"
 #include "dataset/unsound_spans.h"
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "ros/bags/bag_writer.h"
 #include "ros/bags/resource_path.h"
-#include "ros/tools/tools.h"
 #include "support/holds.h"
+#include "support/program_output.h"
 #include "support/ros_listener.h"
 #include "support/synthetic_recording.h"
 
@@ -99,9 +98,9 @@ void addReject(const std::string& path, double time) {
 }
 
 fsr::calibration::Calibration trainedByTool(const std::string& bag, const std::string& output) {
-  const char* const words[] = {"train", bag.c_str(), "--output", output.c_str()};
-  std::ostringstream out;
-  EXPECT_EQ(fsr_ros::trainTool(4, words, out), 0);
+  const test_support::ProgramOutput tool =
+      test_support::outputOf("rosrun fsr_pressure_map train " + bag + " --output " + output + " 2>&1");
+  EXPECT_EQ(tool.status, 0) << tool.text;
   return fsr::calibration::loadCalibration(output, fsr::calibration::CalibrationParts::kAll);
 }
 

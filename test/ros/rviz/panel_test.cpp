@@ -45,6 +45,10 @@ class Panel : public testing::Test {
     panel->initialize(nullptr);
   }
 
+  static void SetUpTestSuite() {
+    std::filesystem::remove_all(kFolder);
+    std::filesystem::create_directories(kFolder);
+  }
   void SetUp() override {
     fsr::calibration::saveCalibration(test_support::smallCalibration({3, 4}, {0.0, 10.0}), kFile);
     rig.identify("board-1");
@@ -609,13 +613,3 @@ TEST_F(Panel, ShowsTheWarningOfResearchUse) {
 }
 
 }  // namespace
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "panel_test");
-  QApplication application(argc, argv);
-  std::filesystem::remove_all(kFolder);
-  std::filesystem::create_directories(kFolder);
-  const ros::NodeHandle keep_alive;
-  return RUN_ALL_TESTS();
-}

@@ -614,13 +614,3 @@ TEST_F(Rviz, IOpensEveryShippedConfiguration) {
 }
 
 }  // namespace
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "rviz_test");
-  QApplication application(argc, argv);
-  const int status = RUN_ALL_TESTS();
-  std::fflush(nullptr);
-  std::_Exit(
-      status);  // rviz's static objects may be destroyed after the display server, so do not destroy them
-}
