@@ -1,4 +1,3 @@
-#include <diagnostic_msgs/DiagnosticArray.h>
 #include <fsr_pressure_map/CalibrationInfo.h>
 #include <fsr_pressure_map/LoadFile.h>
 #include <fsr_pressure_map/SetMask.h>
@@ -15,6 +14,7 @@
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "ros/bags/resource_path.h"
 #include "support/calibration_rig.h"
+#include "support/diagnostics.h"
 #include "support/small_calibration.h"
 #include "support/small_tables.h"
 
@@ -43,24 +43,26 @@ struct Reply {
   std::string message;
 };
 
+template <typename Service>
+Reply replyOf(const std::string& name, const typename Service::Request& request = {}) {
+  const auto response = test_support::call<Service>("calibration/" + name, request);
+  return {response.success != 0, response.message};
+}
+
 Reply load(const std::string& path) {
-  fsr_pressure_map::LoadFile call;
-  call.request.path = path;
-  EXPECT_TRUE(ros::service::call("calibration/load_calibration", call));
-  return {call.response.success != 0, call.response.message};
+  fsr_pressure_map::LoadFile::Request request;
+  request.path = path;
+  return replyOf<fsr_pressure_map::LoadFile>("load_calibration", request);
 }
 
 Reply trigger(const std::string& service) {
-  std_srvs::Trigger call;
-  EXPECT_TRUE(ros::service::call("calibration/" + service, call));
-  return {call.response.success != 0, call.response.message};
+  return replyOf<std_srvs::Trigger>(service);
 }
 
 Reply mask(const std::vector<std::uint8_t>& taxels) {
-  fsr_pressure_map::SetMask call;
-  call.request.mask = taxels;
-  EXPECT_TRUE(ros::service::call("calibration/set_mask", call));
-  return {call.response.success != 0, call.response.message};
+  fsr_pressure_map::SetMask::Request request;
+  request.mask = taxels;
+  return replyOf<fsr_pressure_map::SetMask>("set_mask", request);
 }
 
 bool contains(const std::string& text, const std::string& part) {
@@ -346,14 +348,14 @@ TEST_F(CalibrationNode, DropsTheTareOnAnotherMountOrCalibration) {
   ASSERT_TRUE(whileScanning([] { return trigger("tare"); }).success);
   rig.lieOn({0.0f}, "flat", ++mount);
   reach([](const PressureMap& m) { return m.flags[4] == 0; });
-  EXPECT_TRUE(CalibrationRig::waitFor([] { return !fs::exists(kTareFile); }));
+  EXPECT_TRUE(test_support::await([] { return !fs::exists(kTareFile); }));
 
   ASSERT_TRUE(whileScanning([] { return trigger("tare"); }).success);
   const std::string other = kFolder / "other.h5";
   save(other, {0.0, 30.0});
   ASSERT_TRUE(load(other).success);
   EXPECT_EQ(rig.mapOf(500).flags[4], 0);
-  EXPECT_TRUE(CalibrationRig::waitFor([] { return !fs::exists(kTareFile); }));
+  EXPECT_TRUE(test_support::await([] { return !fs::exists(kTareFile); }));
 }
 
 // What is not the node's own is neither replaced nor removed.
@@ -371,11 +373,10 @@ TEST_F(CalibrationNode, AMaskReplacesNothingButAMask) {
 }
 
 TEST_F(CalibrationNode, DescribesTheCalibrationInUse) {
-  CalibrationInfo info;
-  ros::NodeHandle handle;
-  const ros::Subscriber eye = handle.subscribe<CalibrationInfo>(
-      "calibration_info", 10, [&](const CalibrationInfo::ConstPtr& message) { info = *message; });
-  ASSERT_TRUE(CalibrationRig::waitFor([&] { return !info.id.empty(); }));
+  const test_support::Listener<CalibrationInfo> infos("calibration_info");
+  ASSERT_TRUE(
+      test_support::await([&] { return !infos.messages.empty() && !infos.messages.back()->id.empty(); }));
+  const CalibrationInfo info = *infos.messages.back();
   EXPECT_EQ(info.path, kFile);
   EXPECT_EQ(info.scheme, "per_curvature");
   EXPECT_EQ(info.model, "grnn");
@@ -383,25 +384,17 @@ TEST_F(CalibrationNode, DescribesTheCalibrationInUse) {
   EXPECT_EQ(info.pressure_high, 620e3);
   EXPECT_TRUE(std::isnan(info.temperature_low));
   EXPECT_EQ(info.class_curvatures, (std::vector<float>{0.0f, 10.0f, 20.0f}));
-  const ros::Time first = info.header.stamp;
-  EXPECT_TRUE(CalibrationRig::waitFor([&] { return info.header.stamp > first; })) << "repeated for recorders";
+  EXPECT_TRUE(test_support::await([&] { return infos.messages.back()->header.stamp > info.header.stamp; }))
+      << "repeated for recorders";
 }
 
 TEST_F(CalibrationNode, ReportsErrorsInDiagnostics) {
   rig.identify("board-2");
   reach([](const PressureMap& m) { return m.state == PressureMap::STATE_WRONG_SENSOR; });
-  bool told = false;
-  ros::NodeHandle handle;
-  const auto look = [&](const diagnostic_msgs::DiagnosticArray::ConstPtr& array) {
-    for (const auto& status : array->status) {
-      told |= contains(status.name, "fsr/calibration") && status.level == status.ERROR &&
-              contains(status.message, "board-2");
-    }
-  };
-  const ros::Subscriber eye = handle.subscribe<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10, look);
-  EXPECT_TRUE(CalibrationRig::waitFor([&] {
+  test_support::Diagnostics diagnostics;
+  EXPECT_TRUE(test_support::await([&] {
     rig.publishScan(500);
-    return told;
+    return diagnostics.says("fsr/calibration: maps", diagnostic_msgs::DiagnosticStatus::ERROR, "board-2");
   }));
 }
 

@@ -22,9 +22,7 @@ using fsr_pressure_map::PressureMap;
 using test_support::CalibrationRig;
 
 bool isLoaded(const std::string& name) {
-  nodelet::NodeletList list;
-  EXPECT_TRUE(ros::service::call("manager/list", list));
-  const auto& loaded = list.response.nodelets;
+  const auto loaded = test_support::call<nodelet::NodeletList>("manager/list").nodelets;
   return std::find(loaded.begin(), loaded.end(), name) != loaded.end();
 }
 
@@ -37,21 +35,18 @@ TEST(CalibrationNodelet, CalibratesAndShowsInsideARealManager) {
   ASSERT_TRUE(rig.connected());
   EXPECT_TRUE(isLoaded("/fsr/calibration"));
   EXPECT_TRUE(isLoaded("/fsr/view"));
-  fsr_pressure_map::LoadFile call;
-  call.request.path = file;
-  ASSERT_TRUE(ros::service::call("calibration/load_calibration", call));
-  EXPECT_TRUE(call.response.success) << call.response.message;
+  fsr_pressure_map::LoadFile::Request request;
+  request.path = file;
+  const auto reply = test_support::call<fsr_pressure_map::LoadFile>("calibration/load_calibration", request);
+  EXPECT_TRUE(reply.success) << reply.message;
   rig.lieOn({10.0f});
   const auto calibrated = [](const PressureMap& m) { return !m.flags.empty() && m.state == m.STATE_OK; };
   EXPECT_EQ(rig.mapWhen(500, calibrated).pressure[5], test_support::knownPressure(5, 1, 500));
 
-  sensor_msgs::PointCloud2::ConstPtr points;
-  ros::NodeHandle handle;
-  const ros::Subscriber eye = handle.subscribe<sensor_msgs::PointCloud2>(
-      "points", 10, [&](const sensor_msgs::PointCloud2::ConstPtr& message) { points = message; });
-  EXPECT_TRUE(CalibrationRig::waitFor([&] {
+  const test_support::Listener<sensor_msgs::PointCloud2> points("points");
+  EXPECT_TRUE(test_support::await([&] {
     rig.publishScan(500);
-    return points != nullptr;
+    return !points.messages.empty();
   }));
   std::filesystem::remove(file);
 }

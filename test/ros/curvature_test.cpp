@@ -4,7 +4,6 @@
 #include <fsr_pressure_map/SetSurface.h>
 #include <fsr_pressure_map/SurfaceCurvature.h>
 #include <gtest/gtest.h>
-#include <ros/callback_queue.h>
 #include <ros/ros.h>
 #include <tf2_msgs/TFMessage.h>
 #include <unistd.h>
@@ -13,17 +12,18 @@
 #include <filesystem>
 #include <fstream>
 
+#include "support/ros_listener.h"
+
 namespace {
 
 using fsr_pressure_map::SurfaceCurvature;
 
 SurfaceCurvature setSurface(const std::string& surface, std::uint32_t mount, std::string* reply = nullptr) {
-  fsr_pressure_map::SetSurface call;
-  call.request.surface = surface;
-  call.request.mount = mount;
-  EXPECT_TRUE(ros::service::waitForService("curvature/set_surface", ros::Duration(30)));
-  EXPECT_TRUE(ros::service::call("curvature/set_surface", call));
-  if (reply != nullptr) *reply = call.response.message;
+  fsr_pressure_map::SetSurface::Request request;
+  request.surface = surface;
+  request.mount = mount;
+  const auto response = test_support::call<fsr_pressure_map::SetSurface>("curvature/set_surface", request);
+  if (reply != nullptr) *reply = response.message;
   const auto message = ros::topic::waitForMessage<SurfaceCurvature>("curvature", ros::Duration(30));
   return message ? *message : SurfaceCurvature();
 }
@@ -127,15 +127,10 @@ TEST_F(ScannedSurface, StillGivesItsCurvatureWhereTheScanIsMissing) {
 
 TEST(CurvatureNode, RepeatsItselfForRecorders) {
   const SurfaceCurvature first = setSurface("flat", 1);
-  ros::Time later;
-  const auto handler = [&](const SurfaceCurvature::ConstPtr& message) { later = message->header.stamp; };
-  ros::NodeHandle handle;
-  const ros::Subscriber subscriber = handle.subscribe<SurfaceCurvature>("curvature", 10, handler);
-  const ros::WallTime give_up = ros::WallTime::now() + ros::WallDuration(30);
-  while (later <= first.header.stamp && ros::WallTime::now() < give_up) {
-    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.5));
-  }
-  EXPECT_GT(later, first.header.stamp);
+  const test_support::Listener<SurfaceCurvature> surfaces("curvature");
+  EXPECT_TRUE(test_support::await([&] {
+    return !surfaces.messages.empty() && surfaces.messages.back()->header.stamp > first.header.stamp;
+  }));
 }
 
 TEST(SessionNode, PublishesTheDescriptionOfARecording) {
@@ -147,29 +142,20 @@ TEST(SessionNode, PublishesTheDescriptionOfARecording) {
 }
 
 TEST(SessionNode, MarksAKnownKindAndRefusesAnother) {
-  ASSERT_TRUE(ros::service::waitForService("session/mark", ros::Duration(30)));
-  fsr_pressure_map::Event last;
-  ros::NodeHandle handle;
-  const ros::Subscriber subscriber = handle.subscribe<fsr_pressure_map::Event>(
-      "events", 10, [&](const fsr_pressure_map::Event::ConstPtr& event) { last = *event; });
-  const ros::WallTime give_up = ros::WallTime::now() + ros::WallDuration(30);
-  while (subscriber.getNumPublishers() == 0 && ros::WallTime::now() < give_up)
-    ros::WallDuration(0.01).sleep();
+  const test_support::Listener<fsr_pressure_map::Event> events("events");
+  ASSERT_TRUE(events.connected());
+  fsr_pressure_map::Mark::Request request;
+  request.kind = "don";
+  request.label = "liner 3 mm";
+  EXPECT_TRUE(test_support::call<fsr_pressure_map::Mark>("session/mark", request).success);
+  ASSERT_TRUE(events.has(1));
+  EXPECT_EQ(events.messages.back()->kind, "don");
+  EXPECT_EQ(events.messages.back()->label, "liner 3 mm");
 
-  fsr_pressure_map::Mark call;
-  call.request.kind = "don";
-  call.request.label = "liner 3 mm";
-  while (last.kind.empty() && ros::WallTime::now() < give_up) {
-    ASSERT_TRUE(ros::service::call("session/mark", call));
-    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.5));
-  }
-  EXPECT_TRUE(call.response.success);
-  EXPECT_EQ(last.label, "liner 3 mm");
-
-  call.request.kind = "lunch";
-  ASSERT_TRUE(ros::service::call("session/mark", call));
-  EXPECT_FALSE(call.response.success);
-  EXPECT_NE(call.response.message.find("conditioning"), std::string::npos) << call.response.message;
+  request.kind = "lunch";
+  const auto refused = test_support::call<fsr_pressure_map::Mark>("session/mark", request);
+  EXPECT_FALSE(refused.success);
+  EXPECT_NE(refused.message.find("conditioning"), std::string::npos) << refused.message;
 }
 
 }  // namespace

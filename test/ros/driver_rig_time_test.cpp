@@ -1,4 +1,3 @@
-#include <diagnostic_msgs/DiagnosticArray.h>
 #include <fsr_pressure_map/MatrixFrame.h>
 #include <gtest/gtest.h>
 #include <rosgraph_msgs/Clock.h>
@@ -7,6 +6,7 @@
 #include <string>
 
 #include "support/board_packets.h"
+#include "support/diagnostics.h"
 #include "support/pty.h"
 #include "support/ros_listener.h"
 
@@ -51,16 +51,11 @@ TEST(DriverInRigTime, StampsInRigTimeAsEvenlyAsTheBoardScans) {
   test_support::Listener<fsr_pressure_map::MatrixFrame> raw("fsr/raw");
   test_support::Listener<sensor_msgs::FluidPressure> pressure("fsr/chamber_pressure");
   ASSERT_TRUE(raw.connected() && pressure.connected());
-  bool reading = false;
-  const auto look = [&](const diagnostic_msgs::DiagnosticArray::ConstPtr& array) {
-    reading = reading || array->status.front().message.find("reading") == 0;
-  };
-  const auto diagnostics =
-      ros::NodeHandle().subscribe<diagnostic_msgs::DiagnosticArray>("/diagnostics", 100, look);
+  test_support::Diagnostics diagnostics;
   Rig rig(ros::NodeHandle("~").param<std::string>("port", ""));
   ASSERT_TRUE(await([&] {
     rig.tick();
-    return reading;
+    return diagnostics.says("fsr/driver: link", "reading");
   }));
   for (std::size_t i = 0; i < kSteps; ++i) {
     rig.step();

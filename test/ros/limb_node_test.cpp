@@ -1,9 +1,9 @@
-#include <diagnostic_msgs/DiagnosticArray.h>
 #include <fsr_pressure_map/MatrixInfo.h>
 #include <fsr_pressure_map/PressureStatisticsArray.h>
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 
+#include "support/diagnostics.h"
 #include "support/ros_listener.h"
 
 namespace {
@@ -52,7 +52,7 @@ TEST(Limb, SumsItsSheetsAndReportsASilentOne) {
 
 TEST(Limb, NamesTwoSheetsWhoseBoardsHaveOneSerialNumber) {
   ros::NodeHandle handle;
-  test_support::Listener<diagnostic_msgs::DiagnosticArray> ears("/diagnostics");
+  test_support::Diagnostics diagnostics;
   const auto info = [](const std::string& serial) {
     fsr_pressure_map::MatrixInfo message;
     message.serial = serial;
@@ -61,19 +61,11 @@ TEST(Limb, NamesTwoSheetsWhoseBoardsHaveOneSerialNumber) {
   ros::Publisher left = handle.advertise<fsr_pressure_map::MatrixInfo>("left/matrix_info", 1, true);
   ros::Publisher right = handle.advertise<fsr_pressure_map::MatrixInfo>("right/matrix_info", 1, true);
   const auto says = [&](const std::string& words, int level) {
-    return test_support::await([&] {
-      for (const auto& array : ears.messages) {
-        for (const auto& status : array->status) {
-          if (status.message.find(words) != std::string::npos && status.level == level) return true;
-        }
-      }
-      return false;
-    });
+    return diagnostics.await("limb: sheets", level, words) == words;
   };
   left.publish(info("A1"));
   right.publish(info("A1"));
   EXPECT_TRUE(says("/left and /right have the same serial number, A1: give each sheet the serial_port", 2));
-  ears.messages.clear();
   right.publish(info("B2"));
   EXPECT_TRUE(says("no statistics come from /left /right", 1));
 }

@@ -1,6 +1,5 @@
 #include <fsr_pressure_map/SetSurface.h>
 #include <gtest/gtest.h>
-#include <ros/callback_queue.h>
 #include <ros/ros.h>
 #include <rosgraph_msgs/Clock.h>
 #include <std_msgs/String.h>
@@ -11,8 +10,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <functional>
-#include <set>
 
 #include "support/board_listener.h"
 #include "support/ros_listener.h"
@@ -27,30 +24,27 @@ std::string port() {
   return path;
 }
 
-template <typename Service>
-Service call(const std::string& name, Service service) {
-  EXPECT_TRUE(ros::service::waitForService("rig_emulator/" + name, ros::Duration(-1)));
-  EXPECT_TRUE(ros::service::call("rig_emulator/" + name, service));
-  return service;
+std::string command(const std::string& name) {
+  const auto reply = test_support::call<std_srvs::Trigger>("rig_emulator/" + name);
+  EXPECT_TRUE(reply.success);
+  return reply.message;
 }
 
-std::string trigger(const std::string& name) {
-  const auto reply = call(name, std_srvs::Trigger());
-  EXPECT_TRUE(reply.response.success);
-  return reply.response.message;
+fsr_pressure_map::SetSurface::Response layOn(const std::string& surface, std::uint32_t mount) {
+  fsr_pressure_map::SetSurface::Request request;
+  request.surface = surface;
+  request.mount = mount;
+  return test_support::call<fsr_pressure_map::SetSurface>("rig_emulator/set_surface", request);
 }
 
-fsr_pressure_map::SetSurface::Response setSurface(const std::string& surface, std::uint32_t mount) {
-  fsr_pressure_map::SetSurface service;
-  service.request.surface = surface;
-  service.request.mount = mount;
-  return call("set_surface", service).response;
+std_srvs::SetBool::Response switchOn(const std::string& name, bool on) {
+  std_srvs::SetBool::Request request;
+  request.data = on;
+  return test_support::call<std_srvs::SetBool>("rig_emulator/" + name, request);
 }
 
 std_srvs::SetBool::Response setDamage(bool damaged) {
-  std_srvs::SetBool service;
-  service.request.data = damaged;
-  return call("set_damage", service).response;
+  return switchOn("set_damage", damaged);
 }
 
 /// Mean counts of the last scan.
@@ -60,28 +54,25 @@ double meanOf(const BoardListener& listener) {
   return sum / static_cast<double>(listener.scans.back().counts.size());
 }
 
-/// Records `~status`, because a status may have ended before the test checks it.
+/// Keeps `~status`, because a status may have ended before the test checks it.
 class Status {
  public:
-  Status() {
-    subscriber_ = handle_.subscribe<std_msgs::String>(
-        "rig_emulator/status", 100, [this](const std_msgs::String::ConstPtr& m) { heard_.insert(m->data); });
-  }
-  bool becomes(const std::string& status) {
-    return test_support::await([&] { return heard_.count(status) > 0; });
+  bool becomes(const std::string& status) const {
+    return test_support::await([&] {
+      return std::any_of(heard_.messages.begin(), heard_.messages.end(),
+                         [&](const auto& heard) { return heard->data == status; });
+    });
   }
 
  private:
-  ros::NodeHandle handle_;
-  ros::Subscriber subscriber_;
-  std::set<std::string> heard_;
+  test_support::Listener<std_msgs::String> heard_{"rig_emulator/status"};
 };
 
 TEST(RigEmulatorNode, RunsItsCyclesOnRequestAndSaysWhenTheyAreDone) {
   Status status;
   EXPECT_TRUE(status.becomes("idle 0"));
   const ros::Time started = ros::Time::now();
-  EXPECT_EQ(trigger("start"), "run 1: 2 cycles to 300 kPa gauge, 12 s each");
+  EXPECT_EQ(command("start"), "run 1: 2 cycles to 300 kPa gauge, 12 s each");
   EXPECT_TRUE(status.becomes("running 1"));
   EXPECT_TRUE(status.becomes("done 1"));
   EXPECT_GT((ros::Time::now() - started).toSec(), 23.5) << "two cycles of 12 s in rig time";
@@ -90,11 +81,11 @@ TEST(RigEmulatorNode, RunsItsCyclesOnRequestAndSaysWhenTheyAreDone) {
 TEST(RigEmulatorNode, ANewRunUsesThePresentParameters) {
   ros::param::set("rig_emulator/chamber/cycles", 1);
   ros::param::set("rig_emulator/chamber/peak", 120000.0);
-  EXPECT_EQ(trigger("start"), "run 2: 1 cycle to 120 kPa gauge, 6 s each");
+  EXPECT_EQ(command("start"), "run 2: 1 cycle to 120 kPa gauge, 6 s each");
   Status status;
   EXPECT_TRUE(status.becomes("done 2"));
   ros::param::set("rig_emulator/chamber/peak", 800000.0);
-  const auto refused = call("start", std_srvs::Trigger()).response;
+  const auto refused = test_support::call<std_srvs::Trigger>("rig_emulator/start");
   EXPECT_FALSE(refused.success);
   EXPECT_NE(refused.message.find("793000 Pa"), std::string::npos) << refused.message;
   ros::param::del("rig_emulator/chamber");
@@ -102,8 +93,8 @@ TEST(RigEmulatorNode, ANewRunUsesThePresentParameters) {
 
 TEST(RigEmulatorNode, StopsOnRequest) {
   ros::param::set("rig_emulator/chamber/cycles", 500);  // so many that the run is stopped before its end
-  trigger("start");
-  trigger("stop");
+  command("start");
+  command("stop");
   ros::param::del("rig_emulator/chamber");
   Status status;
   EXPECT_TRUE(status.becomes("stopped 3"));
@@ -125,12 +116,12 @@ TEST(RigEmulatorNode, ChangesTheSurfaceUnderTheMatrix) {
   BoardListener listener(port());
   ASSERT_TRUE(listener.untilScans(10));
   const double flat = meanOf(listener);
-  const auto reply = setSurface("cylinder_7cm", 5);
+  const auto reply = layOn("cylinder_7cm", 5);
   EXPECT_TRUE(reply.success);
   EXPECT_EQ(reply.message, "the emulated matrix lies on cylinder_7cm (mount 5)");
   EXPECT_TRUE(listener.until([&] { return meanOf(listener) > flat + 100; })) << "the preload of the bend";
-  EXPECT_NE(setSurface("flat", 0).message.find("mount 6"), std::string::npos);
-  const auto refused = setSurface("cylinder_6cm", 0);
+  EXPECT_NE(layOn("flat", 0).message.find("mount 6"), std::string::npos);
+  const auto refused = layOn("cylinder_6cm", 0);
   EXPECT_FALSE(refused.success);
   EXPECT_NE(refused.message.find("cylinder_7cm"), std::string::npos) << "lists what there is";
 }
@@ -158,9 +149,7 @@ TEST(RigEmulatorNode, DamagesTheLineByItsParametersAndEndsTheDamage) {
 TEST(RigEmulatorNode, SendsAnEdgeOfTheTrigger) {
   BoardListener listener(port());
   for (const bool high : {true, false}) {
-    std_srvs::SetBool service;
-    service.request.data = high;
-    EXPECT_EQ(call("set_trigger", service).response.message,
+    EXPECT_EQ(switchOn("set_trigger", high).message,
               std::string(high ? "a rising" : "a falling") + " edge at the trigger input");
   }
   ASSERT_TRUE(listener.until([&] { return listener.triggers.size() == 2; }));

@@ -1,6 +1,5 @@
 // Faults of a whole rig: driver, curvature, calibration and view node as calibrated.launch starts them, with
 // a board that this test emulates. Every map with the state OK is compared with its scan and its board.
-#include <diagnostic_msgs/DiagnosticArray.h>
 #include <fsr_pressure_map/MatrixFrame.h>
 #include <fsr_pressure_map/PressureMap.h>
 #include <gtest/gtest.h>
@@ -11,12 +10,14 @@
 
 #include <cmath>
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <map>
 
 #include "emulator/emulator.h"
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "ros/bags/resource_path.h"
+#include "support/diagnostics.h"
 #include "support/ros_listener.h"
 #include "support/small_calibration.h"
 #include "support/small_tables.h"
@@ -135,22 +136,13 @@ TEST_F(RigFaults, AnotherBoardOnThePortNeverPassesForTheCalibrations) {
 }
 
 TEST_F(RigFaults, TheLossesOfABadLineAreCountedInDiagnostics) {
-  std::uint64_t lost = 0;
-  const auto keep = [&](const diagnostic_msgs::DiagnosticArray::ConstPtr& array) {
-    for (const auto& status : array->status) {
-      if (status.name.find("scans") == std::string::npos) continue;
-      for (const auto& value : status.values) {
-        if (value.key == "scans lost") lost = std::stoull(value.value);
-      }
-    }
-  };
-  const ros::Subscriber subscriber =
-      ros::NodeHandle().subscribe<diagnostic_msgs::DiagnosticArray>("/diagnostics", 100, keep);
+  test_support::Diagnostics diagnostics;
   fsr::emulator::LineDamage damage;
   damage.lost_packets = 0.2;
   damage.flipped_bits = 1e-4;
   board_->setDamage(damage);
-  ASSERT_TRUE(await([&] { return lost > 10; }));
+  ASSERT_TRUE(
+      await([&] { return std::atoi(diagnostics.valueOf("fsr/driver: scans", "scans lost").c_str()) > 10; }));
   board_->setDamage({});
   ASSERT_TRUE(calibratedMaps(20));
 }

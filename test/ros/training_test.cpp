@@ -62,13 +62,6 @@ class Training : public testing::Test {
   }
   ~Training() override { fs::remove_all(folder_); }
 
-  std_srvs::Trigger::Response call(const std::string& service) {
-    std_srvs::Trigger trigger;
-    EXPECT_TRUE(ros::service::waitForService(service, ros::Duration(30)));
-    EXPECT_TRUE(ros::service::call(service, trigger));
-    return trigger.response;
-  }
-
   ros::NodeHandle handle_;
   fs::path folder_;
   ros::Subscriber gathered_;
@@ -107,7 +100,7 @@ fsr::calibration::Calibration trainedByTool(const std::string& bag, const std::s
 TEST_F(Training, SaysWhatItWaitsFor) {
   ASSERT_TRUE(test_support::await([this] { return !message_.empty(); }));
   EXPECT_EQ(message_, "waiting for raw, chamber_pressure, curvature");
-  const std_srvs::Trigger::Response answer = call("training/train");
+  const std_srvs::Trigger::Response answer = test_support::call<std_srvs::Trigger>("training/train");
   EXPECT_FALSE(answer.success);
   EXPECT_TRUE(test_support::holds(answer.message, {"chamber_pressure", "/fsr"}));
 }
@@ -135,7 +128,7 @@ TEST_F(Training, AReplayedBagGivesTheTablesOfTheTool) {
         << counts_["raw"] << " of " << expected.at("raw") << " scans";
   }
   EXPECT_EQ(message_, "ready to train");
-  const std_srvs::Trigger::Response answer = call("training/train");
+  const std_srvs::Trigger::Response answer = test_support::call<std_srvs::Trigger>("training/train");
   ASSERT_TRUE(answer.success) << answer.message;
   const std::string output = fsr_ros::rosHome() + "/trained_on_topics.h5";
   EXPECT_NE(answer.message.find(" is in " + output), std::string::npos) << answer.message;
@@ -160,7 +153,7 @@ TEST_F(Training, AReplayedBagGivesTheTablesOfTheTool) {
 }
 
 TEST_F(Training, ClearRemovesWhatWasCollected) {
-  const std_srvs::Trigger::Response answer = call("training/clear");
+  const std_srvs::Trigger::Response answer = test_support::call<std_srvs::Trigger>("training/clear");
   EXPECT_TRUE(answer.success);
   EXPECT_EQ(answer.message, "removed 600 scans");
   EXPECT_TRUE(

@@ -4,13 +4,14 @@
 #include <fsr_pressure_map/MatrixInfo.h>
 #include <fsr_pressure_map/PressureMap.h>
 #include <fsr_pressure_map/SurfaceCurvature.h>
-#include <ros/callback_queue.h>
 #include <ros/ros.h>
 
 #include <deque>
 #include <functional>
 #include <string>
 #include <vector>
+
+#include "support/ros_listener.h"
 
 namespace test_support {
 
@@ -31,18 +32,9 @@ class CalibrationRig {
     map_subscriber_ = handle_.subscribe<fsr_pressure_map::PressureMap>(map_topic, 1000, keep);
   }
 
-  /// Receives messages until `done` returns true. Returns false after 30 s.
-  static bool waitFor(const std::function<bool()>& done) {
-    const ros::WallTime give_up = ros::WallTime::now() + ros::WallDuration(30);
-    while (!done() && ros::WallTime::now() < give_up) {
-      ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.01));
-    }
-    return done();
-  }
-
   /// Publishes scans until a map comes back. From then on no scan is lost.
   bool connected() {
-    return waitFor([this] {
+    return await([this] {
       publishScan(500);
       return !maps_.empty();
     });
@@ -67,7 +59,7 @@ class CalibrationRig {
     frame.header.stamp = ros::Time(stamp += 0.1);
     raw_.publish(frame);
     const auto came = [&] { return !maps_.empty() && maps_.back()->header.stamp == frame.header.stamp; };
-    return waitFor(came) ? *maps_.back() : fsr_pressure_map::PressureMap();
+    return await(came) ? *maps_.back() : fsr_pressure_map::PressureMap();
   }
   fsr_pressure_map::PressureMap mapOf(std::uint16_t code) { return mapOf(scan(code)); }
 
@@ -75,7 +67,7 @@ class CalibrationRig {
   fsr_pressure_map::PressureMap mapWhen(
       std::uint16_t code, const std::function<bool(const fsr_pressure_map::PressureMap&)>& good) {
     fsr_pressure_map::PressureMap map;
-    waitFor([&] { return good(map = mapOf(code)); });
+    await([&] { return good(map = mapOf(code)); });
     return map;
   }
 

@@ -22,6 +22,9 @@ class Diagnostics {
   bool says(const std::string& name, const std::string& part) {
     return last_[name].message.find(part) != std::string::npos;
   }
+  bool says(const std::string& name, int level, const std::string& part) {
+    return last_[name].level == level && says(name, part);
+  }
   /// The value of the key `key` of the part `name`; empty if there is none.
   std::string valueOf(const std::string& name, const std::string& key) {
     for (const auto& pair : last_[name].values) {
@@ -32,7 +35,7 @@ class Diagnostics {
   /// Waits until the message of `name` contains `part` at `level`; returns `part`, or the last message if it
   /// never does.
   std::string await(const std::string& name, int level, const std::string& part) {
-    const auto told = [&] { return last_[name].level == level && says(name, part); };
+    const auto told = [&] { return says(name, level, part); };
     return test_support::await(told) ? part : last_[name].message;
   }
   /// Waits until `driver` has opened its port, with or without bytes.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gtest/gtest.h>
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 
@@ -18,6 +19,14 @@ bool await(Condition condition) {
     ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.01));
   }
   return true;
+}
+
+/// The response of a service, which is waited for.
+template <typename Service>
+typename Service::Response call(const std::string& name, typename Service::Request request = {}) {
+  typename Service::Response response;
+  EXPECT_TRUE(ros::service::waitForService(name) && ros::service::call(name, request, response)) << name;
+  return response;
 }
 
 /// Keeps all messages of a topic.

@@ -92,7 +92,7 @@ class Panel : public testing::Test {
 
   /// Runs the panel while scans of `code` are published, until `done`; false after 30 s.
   bool runUntil(const std::function<bool()>& done, std::uint16_t code = 50) {
-    return CalibrationRig::waitFor([&] {
+    return test_support::await([&] {
       rig.publishScan(code);
       QApplication::processEvents(QEventLoop::AllEvents, 10);
       return done();
