@@ -47,6 +47,25 @@ TEST(SheetLife, FindsALossOfTenPercentInTheWeekOfIt) {
   EXPECT_GE(found, 6) << "of 10 sheets; mounts scatter by 2 %";
 }
 
+TEST(SheetLife, CallsSlowWearNoChange) {
+  int dates = 0, flagged = 0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    LifeRig rig;
+    rig.seed = seed;
+    rig.gain = [](std::size_t week) { return 1 - 0.01 * static_cast<double>(week); };
+    const SheetLife life = lifeOfRig(rig, 0.05);
+    for (const Column& column : life.columns) {
+      if (column.name != "gain") continue;
+      EXPECT_LT(column.values.back(), 0.97);
+      dates += static_cast<int>(column.tested());
+    }
+    flagged += static_cast<int>(changes(life, "gain").size());
+  }
+  EXPECT_EQ(dates, 70);
+  // Level 0.05 / 3 columns: 1.2 of 70 are expected; more than 6 have a probability of 0.0003 (binomial).
+  EXPECT_LE(flagged, 6);
+}
+
 TEST(SheetLife, FindsNothingMoreOftenThanItsLevelWhereNothingChanged) {
   constexpr double kLevel = 0.1;
   int dates = 0, flagged = 0;
