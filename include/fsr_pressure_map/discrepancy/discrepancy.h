@@ -35,12 +35,13 @@ struct DiscrepancyOptions {
   double generic_better = 0.1;    ///< generic terms that close so much more than any effect: unknown
   double unknown_below = 0.5;     ///< an effect that leaves something and closes less: unknown
   double wrong_form_below = 0.7;  ///< likewise: wrong form
-  double second_adds = 0.05;      ///< a second effect must close so much more
-  double contender = 0.2;         ///< of the best score: an explanation below it is not weighed by itself
-  std::size_t null_draws = 299;   ///< of the parametric bootstrap
-  std::size_t resamples = 999;    ///< of the bootstrap over cycles
-  std::size_t folds = 5;          ///< of the cross-validation over cycles
-  double degrees = 4;             ///< of freedom of the density of a cycle
+  /// A second effect must close so much more, unless it is slow and the first is fast.
+  double second_adds = 0.05;
+  double contender = 0.2;        ///< of the best score: an explanation below it is not weighed by itself
+  std::size_t null_draws = 299;  ///< of the parametric bootstrap
+  std::size_t resamples = 999;   ///< of the bootstrap over cycles
+  std::size_t folds = 5;         ///< of the cross-validation over cycles
+  double degrees = 4;            ///< of freedom of the density of a cycle
 };
 
 /// A simulation that may lack effects, and measurements of the simulated sheet.
