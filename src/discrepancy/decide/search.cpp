@@ -303,8 +303,10 @@ void Search::run() {
   sharpen();
   if (appraisal_.p > options_.level) return measureSizes();
   pairUp();
-  dropSizesOfNone();
-  dropPhases();
+  auto& set = appraisal_.credible;
+  set.erase(std::remove_if(set.begin(), set.end(), [&](std::size_t e) { return isNone(e) || isPhase(e); }),
+            set.end());
+  keepLikeTooLarge();
   measureSizes();
 }
 
@@ -354,6 +356,7 @@ void Search::measureSizes() {
 // An effect that would have to be larger than its sources know does not exclude those that resemble it, that
 // would not, and that are no wrong form either.
 void Search::keepLikeTooLarge() {
+  if (appraisal_.credible.empty()) return;
   const Weighed& first = preferred();
   if (!first.explaining.single() || !fitted(first).refined.implausible) return;
   const auto& like = measured_.info(first.explaining.ids.front()).collinear;
@@ -363,15 +366,16 @@ void Search::keepLikeTooLarge() {
     if (!one.contends || !one.explaining.single() || one.closes < options_.wrong_form_below) continue;
     const bool resembles = std::count(like.begin(), like.end(), one.explaining.ids.front()) > 0;
     if (!resembles || std::count(set.begin(), set.end(), e)) continue;
-    if (!fitted(one).refined.implausible) set.push_back(e);
+    if (!fitted(one).refined.implausible && !isNone(e) && !isPhase(e)) set.push_back(e);
   }
+  std::sort(set.begin(), set.end(),
+            [&](std::size_t a, std::size_t b) { return appraisal_.all[a].total > appraisal_.all[b].total; });
 }
 
 // Where the score does not decide, what is known beforehand does. An effect that would have to be larger than
 // its sources know comes last. Before it come effects that need evidence which was not recorded: nothing here
 // could have refuted them, while the others were put to the test.
 void Search::putLikelyFirst() {
-  keepLikeTooLarge();
   const AvailableEvidence evidence = availableEvidence(measured_);
   const auto tested = [&](std::size_t e) {
     const auto& ids = appraisal_.all[e].explaining.ids;
@@ -386,15 +390,11 @@ void Search::putLikelyFirst() {
 
 // An effect explains nothing where its columns take up much more than its forward model does, whose size may
 // be none.
-void Search::dropSizesOfNone() {
+bool Search::isNone(std::size_t e) {
   constexpr double kMuch = 0.5;  // of the rms
-  const auto none = [&](std::size_t e) {
-    const Refined& refined = fitted(appraisal_.all[e]).refined;
-    return mayBeNone(refined, measured_.effects()) &&
-           refined.trace.norm() < kMuch * fit_.residual(explained(appraisal_.all[e])).norm();
-  };
-  auto& set = appraisal_.credible;
-  set.erase(std::remove_if(set.begin(), set.end(), none), set.end());
+  const Refined& refined = fitted(appraisal_.all[e]).refined;
+  return mayBeNone(refined, measured_.effects()) &&
+         refined.trace.norm() < kMuch * fit_.residual(explained(appraisal_.all[e])).norm();
 }
 
 // A trace that `part` should explain, without what wrong sizes of the enabled effects add to it.
@@ -410,20 +410,16 @@ Trace Search::withoutEnabled(const Trace& trace, const Trace& part) const {
 }
 
 // What shifts slow cycles by more time than fast ones is a phase and no delay.
-void Search::dropPhases() {
-  const auto phase = [&](std::size_t e) {
-    const Fitted& fit = fitted(appraisal_.all[e]);
-    const Forward forward(measured_, common_, fit_, base_);
-    for (std::size_t k = 0; k < fit.refined.effects.size(); ++k) {
-      if (!measured_.info(fit.refined.effects[k].id).same_at_each_pace) continue;
-      const Trace part = forward.explained({fit.refined.effects[k]}, {fit.bent_only[k]});
-      const Trace wanted = fit_.residual(common_.all) - (fit.refined.trace - part);
-      if (!isSameAtEachPace(measured_, part, withoutEnabled(wanted, part))) return true;
-    }
-    return false;
-  };
-  auto& set = appraisal_.credible;
-  set.erase(std::remove_if(set.begin(), set.end(), phase), set.end());
+bool Search::isPhase(std::size_t e) {
+  const Fitted& fit = fitted(appraisal_.all[e]);
+  const Forward forward(measured_, common_, fit_, base_);
+  for (std::size_t k = 0; k < fit.refined.effects.size(); ++k) {
+    if (!measured_.info(fit.refined.effects[k].id).same_at_each_pace) continue;
+    const Trace part = forward.explained({fit.refined.effects[k]}, {fit.bent_only[k]});
+    const Trace wanted = fit_.residual(common_.all) - (fit.refined.trace - part);
+    if (!isSameAtEachPace(measured_, part, withoutEnabled(wanted, part))) return true;
+  }
+  return false;
 }
 
 }  // namespace fsr::discrepancy

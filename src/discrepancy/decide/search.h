@@ -66,8 +66,8 @@ class Search {
   double meanSlope() const;
   void measureSizes();
   void keepLikeTooLarge();
-  void dropSizesOfNone();
-  void dropPhases();
+  bool isNone(std::size_t e);
+  bool isPhase(std::size_t e);
   Trace withoutEnabled(const Trace& trace, const Trace& part) const;
 
   const Measured& measured_;
