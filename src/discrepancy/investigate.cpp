@@ -2,6 +2,7 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "discrepancy/decide/decision.h"
 #include "discrepancy/decide/detections.h"
@@ -64,7 +65,7 @@ class Investigation {
   bool pays() const;
   void put();
   void report();
-  void withdraw(const DiscrepancyReport& report, const std::vector<Detection>& detections);
+  void reportWhatPays();
   void startAgain();
   void putDetections();
   void tellScatter();
@@ -613,23 +614,38 @@ void Investigation::report() {
   prove();
 }
 
-// Reports again without the name, from the report and the detections of before.
-void Investigation::withdraw(const DiscrepancyReport& report, const std::vector<Detection>& detections) {
+// Where the simulation with the preferred effects does not pay, the next member of the set is preferred.
+// Where none of them pays, none is named.
+void Investigation::reportWhatPays() {
+  const DiscrepancyReport before = report_;
+  const std::vector<Detection> detections = detections_;
+  report();
+  if (pays()) return;
   const std::string best = listText(report_.credible_set.front(), " with ");
-  report_ = report;
-  report_.limitations.push_back("Best guess: " + best +
-                                ". It is no name, because the simulation with it is farther from the "
-                                "hold-out cycles than without it.");
-  detections_ = detections;
-  later_.clear();
-  quiet_ = false;
+  const std::string farther = "the simulation with it is farther from the hold-out cycles than without it.";
+  const auto start_again = [&](const std::string& said) {
+    report_ = before;
+    report_.limitations.push_back(said);
+    detections_ = detections;
+    later_.clear();
+    quiet_ = false;
+  };
+  const Preference first = decision_;
+  for (const Preference& other : std::exchange(decision_.others, {})) {
+    static_cast<Preference&>(decision_) = other;
+    start_again("The best guess, " + best + ", does not come first, because " + farther);
+    report();
+    if (pays()) return;
+  }
+  static_cast<Preference&>(decision_) = first;
+  start_again("Best guess: " + best + ". It is no name, because " + farther);
   if (decision_.credible.empty()) {
     dropDetections();
   } else {
     decision_.explained = decision_.refined.trace;
   }
   abstain("does_not_pay");
-  this->report();
+  report();
 }
 
 DiscrepancyReport Investigation::run() {
@@ -650,10 +666,7 @@ DiscrepancyReport Investigation::run() {
   lookAtStaticCurves();
   lookAtTaxels();
   abstainWithoutProof();
-  const DiscrepancyReport before = report_;
-  const std::vector<Detection> detections = detections_;
-  report();
-  if (!pays()) withdraw(before, detections);
+  reportWhatPays();
   plan();
   if (!decision_.credible.empty() && !by_terms_) {
     report_.in_use = costsInUse(measured_, report_.base, report_.added,

@@ -44,6 +44,7 @@ class Verdicts {
   bool courseIsBest();
   void tellCourse();
   void tellEffects();
+  Preference preferring(const std::vector<std::size_t>& order, const std::vector<std::size_t>& partners);
   void tellRest();
   void addPartners(const Ids& ids);
   void addPartner(const std::string& id);
@@ -207,30 +208,46 @@ void Verdicts::addUntested(const Ids& ids, const std::string& id, bool proved) {
 
 void Verdicts::tellEffects() {
   search_.putLikelyFirst();
-  const std::size_t not_excluded = appraisal_.credible.size();
-  credible_ = appraisal_.credible;
-  for (const std::size_t e : appraisal_.credible) addPartners(appraisal_.all[e].explaining.ids);
-  const Weighed& first = search_.preferred();
-  decision_.closes = first.closes;
-  decision_.z = first.z;
-  decision_.at_map = first.at_map;
-  decision_.explained = search_.explained(first);
-  told_ = &first;
-  decision_.refined = search_.fitted(first).refined;
-  decision_.bent_only = search_.fitted(first).bent_only;
-  for (const std::size_t e : credible_) {
-    decision_.densities.push_back(decision_.credible.size() < not_excluded ? appraisal_.all[e].density
-                                                                           : first.density);
-    decision_.credible.push_back(appraisal_.all[e].explaining.ids);
-    if (e != credible_.front()) decision_.rivals.push_back(search_.fitted(appraisal_.all[e]).refined);
+  std::vector<std::size_t> order = appraisal_.credible;
+  credible_ = order;
+  for (const std::size_t e : order) addPartners(appraisal_.all[e].explaining.ids);
+  const std::vector<std::size_t> partners(credible_.begin() + static_cast<std::ptrdiff_t>(order.size()),
+                                          credible_.end());
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    decision_.others.push_back(preferring(order, partners));
+    std::rotate(order.begin(), order.begin() + 1, order.end());
   }
-  decision_.credible.insert(decision_.credible.end(), untold_.begin(), untold_.end());
+  static_cast<Preference&>(decision_) = decision_.others.front();
+  decision_.others.erase(decision_.others.begin());
+  told_ = &search_.preferred();
   tellRest();
-  for (const simulation::Covariate c : first.explaining.covariates)
-    decision_.depends_on.push_back(simulation::name(c));
   decision_.verdict = decision_.credible.size() > 1 ? Verdict::kAmbiguous
                       : wrongForm()                 ? Verdict::kWrongForm
                                                     : Verdict::kNamed;
+}
+
+// The first of `order` is preferred to the others, which are not excluded either, and to its partners.
+Preference Verdicts::preferring(const std::vector<std::size_t>& order,
+                                const std::vector<std::size_t>& partners) {
+  const Weighed& first = appraisal_.all[order.front()];
+  Preference told;
+  told.closes = first.closes;
+  told.z = first.z;
+  told.at_map = first.at_map;
+  told.explained = search_.explained(first);
+  told.refined = search_.fitted(first).refined;
+  told.bent_only = search_.fitted(first).bent_only;
+  const auto add = [&](std::size_t e, const std::vector<double>& density) {
+    told.densities.push_back(density);
+    told.credible.push_back(appraisal_.all[e].explaining.ids);
+    if (e != order.front()) told.rivals.push_back(search_.fitted(appraisal_.all[e]).refined);
+  };
+  for (const std::size_t e : order) add(e, appraisal_.all[e].density);
+  for (const std::size_t e : partners) add(e, first.density);
+  told.credible.insert(told.credible.end(), untold_.begin(), untold_.end());
+  for (const simulation::Covariate c : first.explaining.covariates)
+    told.depends_on.push_back(simulation::name(c));
+  return told;
 }
 
 // What chance does not explain beside the preferred effects, and what would add most to them.

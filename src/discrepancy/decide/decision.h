@@ -24,20 +24,28 @@ struct RandomFinding {
   bool alone = true;   ///< nothing else is left beyond chance
 };
 
-/// Result of the comparison of explanations on the common trace.
-struct Decision {
-  Verdict verdict = Verdict::kNone;
+/// What is told of the preferred explanation, and of its rivals.
+struct Preference {
   Refined refined;  ///< the preferred effects, fitted through the true forward model; empty where unknown
   std::vector<bool> bent_only;  ///< of each of them: acts only where the surface is bent
   std::vector<Refined> rivals;  ///< likewise, for the other credible explanations
   std::vector<std::vector<std::string>> credible;
   std::vector<std::string> depends_on;
-  Trace explained;       ///< what the preferred explanation adds to the common trace, by its columns
-  double p = 1;          ///< probability of the best score if nothing were missing
-  double z = 0;          ///< of the preferred explanation
-  double closes = 0;     ///< share of what can be closed
-  double at_map = NAN;   ///< see DiscrepancyReport::at_map [Pa]
-  double least_gap = 0;  ///< [Pa]
+  Trace explained;      ///< what the preferred explanation adds to the common trace, by its columns
+  double z = 0;         ///< of the preferred explanation
+  double closes = 0;    ///< share of what can be closed
+  double at_map = NAN;  ///< see DiscrepancyReport::at_map [Pa]
+  /// Of the preferred explanation and of each rival: predictive log density of each cycle [nats]. A rival
+  /// that is credible because evidence is lacking has that of the preferred one.
+  std::vector<std::vector<double>> densities;
+};
+
+/// Result of the comparison of explanations on the common trace.
+struct Decision : Preference {
+  Verdict verdict = Verdict::kNone;
+  std::vector<Preference> others;  ///< the same with another member of the set preferred, the likelier first
+  double p = 1;                    ///< probability of the best score if nothing were missing
+  double least_gap = 0;            ///< [Pa]
   /// Where the verdict is none but for a random course. `p` and `at_map` are then those of the course.
   std::optional<RandomFinding> course;
   std::vector<CandidateScore> candidates;
@@ -45,9 +53,6 @@ struct Decision {
   std::vector<SmallestSeen> smallest_seen;
   std::vector<TooSmall> too_small;
   std::vector<Scatter> scatter;
-  /// Of the preferred explanation and of each rival: predictive log density of each cycle [nats]. A rival
-  /// that is credible because evidence is lacking has that of the preferred one.
-  std::vector<std::vector<double>> densities;
   std::vector<std::string> untested;     ///< effects that are credible because nothing tests them
   NoiseOfCycles noise;                   ///< fitted together with the preferred explanation
   std::vector<std::string> limitations;  ///< sentences
