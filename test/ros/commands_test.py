@@ -24,12 +24,12 @@ import unittest
 
 import rospy
 import rostest
+from terminal import PROGRAMS
 
 SOURCE = pathlib.Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(SOURCE / "test/scripts"))
 from bare_shell import module  # noqa: E402
 
-PROGRAMS = pathlib.Path(os.environ["CMAKE_PREFIX_PATH"].split(":")[0]) / "lib" / "fsr_pressure_map"
 PAGES = [SOURCE / "README.md", *sorted((SOURCE / "docs").glob("*.md"))]
 BUSY = 2        # CPU time of one program [s]
 ENDED_BUSY = {-signal.SIGXCPU, 128 + signal.SIGXCPU}  # exit status of a program that is ended so, and of a shell whose program is

@@ -13,7 +13,6 @@ import signal
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
 
 import rosgraph
@@ -23,6 +22,7 @@ from fsr_pressure_map.msg import PressureMap
 from fsr_pressure_map.srv import SetSurface
 from std_msgs.msg import String
 from std_srvs.srv import Trigger
+from terminal import happens
 
 DOCS = pathlib.Path(__file__).resolve().parent.parent.parent / "docs"
 STAYS = ("driver.launch", "calibrated.launch", "replay.launch")  # runs until the next of them
@@ -92,12 +92,8 @@ class Documents(unittest.TestCase):
         self.stays = None
 
     def wait_for(self, condition, what, child=None):
-        for _ in range(1200):
-            if condition():
-                return
-            if child and child.poll() is not None:
-                break
-            time.sleep(0.05)  # the graph sends no events
+        if happens(condition, ended=lambda: child and child.poll() is not None):
+            return
         logs = "\n".join(path.read_text()[-1500:] for path in sorted(self.folder.glob("*.log")))
         self.fail("%s did not happen\n%s" % (what, logs))
 

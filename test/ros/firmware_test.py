@@ -11,7 +11,7 @@ import rosbag
 import rospkg
 import rospy
 import rostest
-from fsr_pressure_map.msg import MatrixFrame, MatrixInfo, PressureMap
+from fsr_pressure_map.msg import MatrixFrame, PressureMap
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import FluidPressure
 

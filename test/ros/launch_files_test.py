@@ -7,56 +7,18 @@ import signal
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
-import xmlrpc.client
 
 import rosbag
-import rosgraph
-import rospkg
 import rospy
 import rosservice
 import rostest
 from diagnostic_msgs.msg import DiagnosticArray
 from fsr_pressure_map.msg import CalibrationInfo, MatrixInfo, PressureMap, PressureStatistics, PressureStatisticsArray, SurfaceCurvature
+from terminal import PACKAGE, PATIENCE, PROGRAMS, Terminal, happens, pid_of
 from tf2_msgs.msg import TFMessage
 
-PACKAGE = pathlib.Path(rospkg.RosPack().get_path("fsr_pressure_map"))
-PROGRAMS = pathlib.Path(os.environ["CMAKE_PREFIX_PATH"].split(":")[0]) / "lib" / "fsr_pressure_map"
 BENCH = PACKAGE / "config" / "simulation" / "bench.yaml"  # 3 x 4 taxels
-PATIENCE = 60  # [s]
-
-
-class Terminal:
-    """One terminal: roslaunch with a shipped launch file, called in `folder`."""
-
-    def __init__(self, folder, name, *arguments):
-        self.output = tempfile.NamedTemporaryFile("a")
-        environment = {**os.environ, "PWD": str(folder), "ROS_HOME": str(folder / "ros_home")}
-        self.launch = subprocess.Popen(["roslaunch", "fsr_pressure_map", f"{name}.launch", *arguments], cwd=folder,
-                                       env=environment, stdout=self.output, stderr=subprocess.STDOUT)
-
-    def said(self):
-        return pathlib.Path(self.output.name).read_text()  # not by the descriptor, which has the place where roslaunch writes
-
-    def end(self):
-        """Ctrl-C; what the terminal then shows."""
-        if self.launch.poll() is None:
-            self.launch.send_signal(signal.SIGINT)
-        self.launch.wait(PATIENCE)
-        return self.said()
-
-
-def master():
-    return rosgraph.Master("/launch_files_test")
-
-
-def pid_of(node):
-    """0 if there is no such node."""
-    try:
-        return xmlrpc.client.ServerProxy(master().lookupNode(node)).getPid("/launch_files_test")[2]
-    except (rosgraph.MasterException, OSError):
-        return 0
 
 
 class LaunchFilesTest(unittest.TestCase):
@@ -83,11 +45,8 @@ class LaunchFilesTest(unittest.TestCase):
         return self.start(name, f"serial_port:={self.port}", "serial_baud:=0", *arguments)
 
     def wait_for(self, condition, terminal=None):
-        give_up = time.monotonic() + PATIENCE
-        while not condition():
-            if time.monotonic() > give_up:
-                self.fail(terminal.said() if terminal else "did not happen")
-            time.sleep(0.02)
+        if not happens(condition):
+            self.fail(terminal.said() if terminal else "did not happen")
 
     def simulate(self):
         """Bags of the emulated board in its chamber, 1_flat.bag and 2_cylinder_5cm.bag."""
@@ -116,7 +75,7 @@ class LaunchFilesTest(unittest.TestCase):
     def refused(self, name, *arguments):
         """The terminal's text of a launch that is refused."""
         terminal = Terminal(self.folder, name, *arguments)
-        self.wait_for(lambda: terminal.launch.poll() is not None, terminal)
+        self.wait_for(terminal.ended, terminal)
         return terminal.said()
 
     def test_every_service_works_as_the_launch_files_start_it(self):

@@ -12,6 +12,7 @@ import unittest
 
 import rosbag
 import rostest
+from terminal import PROGRAMS, happens
 
 
 def free_port():
@@ -48,20 +49,15 @@ class MasterTest(unittest.TestCase):
             return probe.connect_ex(("127.0.0.1", self.port)) == 0
 
     def wait_for(self, condition):
-        for _ in range(600):
-            if condition():
-                return
-            time.sleep(0.05)
-        self.fail("did not happen within 30 s")
+        self.assertTrue(happens(condition), "did not happen")
 
     def test_a_recording_goes_on_without_its_master(self):
         master = self.start_master()
         port = pathlib.Path(self.folder.name) / "board"
-        programs = pathlib.Path(os.environ["CMAKE_PREFIX_PATH"].split(":")[0]) / "lib" / "fsr_pressure_map"
-        self.start(str(programs / "rig_emulator_node"), f"_link:={port}", "_scan_rate:=100")
-        self.start(str(programs / "driver_node"), f"_serial_port:={port}", "_serial_baud:=0")
+        self.start(str(PROGRAMS / "rig_emulator_node"), f"_link:={port}", "_scan_rate:=100")
+        self.start(str(PROGRAMS / "driver_node"), f"_serial_port:={port}", "_serial_baud:=0")
         bag = pathlib.Path(self.folder.name) / "recorded.bag"
-        recorder = self.start(str(programs / "recorder_node"), f"_bag:={bag}", "_topics:=/raw")
+        recorder = self.start(str(PROGRAMS / "recorder_node"), f"_bag:={bag}", "_topics:=/raw")
         active = pathlib.Path(f"{bag}.active")
         self.wait_for(lambda: active.exists() and active.stat().st_size > 50_000)
         master.kill()

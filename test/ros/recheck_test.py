@@ -1,15 +1,12 @@
 #!/usr/bin/python3
 """recheck.launch as users start it: beside calibrated.launch on a worn sheet, on recorded bags, and on what it has corrected."""
-import os
 import pathlib
-import signal
 import subprocess
 import sys
 import tempfile
 import time
 import unittest
 
-import rospkg
 import rospy
 import rostest
 import yaml
@@ -17,30 +14,10 @@ from diagnostic_msgs.msg import DiagnosticArray
 from fsr_pressure_map.msg import CalibrationInfo
 from fsr_pressure_map.srv import LoadFile
 from rosgraph_msgs.msg import Clock
+from terminal import PACKAGE, PROGRAMS, Terminal, happens
 
-PACKAGE = pathlib.Path(rospkg.RosPack().get_path("fsr_pressure_map"))
-PROGRAMS = pathlib.Path(os.environ["CMAKE_PREFIX_PATH"].split(":")[0]) / "lib" / "fsr_pressure_map"
 PATIENCE = 90  # [s]
 CYCLES = 4  # of each training bag
-
-
-class Terminal:
-    """One terminal: roslaunch with a shipped launch file, called in `folder`."""
-
-    def __init__(self, folder, name, *arguments):
-        self.output = tempfile.NamedTemporaryFile("a")
-        environment = {**os.environ, "PWD": str(folder), "ROS_HOME": str(folder / "ros_home")}
-        self.launch = subprocess.Popen(["roslaunch", "fsr_pressure_map", f"{name}.launch", *arguments], cwd=folder,
-                                       env=environment, stdout=self.output, stderr=subprocess.STDOUT)
-
-    def said(self):
-        return pathlib.Path(self.output.name).read_text()
-
-    def end(self):
-        if self.launch.poll() is None:
-            self.launch.send_signal(signal.SIGINT)
-        self.launch.wait(PATIENCE)
-        return self.said()
 
 
 def write_rig(path, loss, offset):
@@ -79,11 +56,8 @@ class RecheckTest(unittest.TestCase):
 
     def ended(self, terminal):
         """What the terminal shows when its launch has ended by itself."""
-        give_up = time.monotonic() + PATIENCE
-        while terminal.launch.poll() is None:
-            if time.monotonic() > give_up:
-                self.fail(terminal.said())
-            time.sleep(0.05)
+        if not happens(terminal.ended, patience=PATIENCE):
+            self.fail(terminal.said())
         return terminal.said()
 
     def info(self, parent):

@@ -9,14 +9,13 @@ import subprocess
 import sys
 import tempfile
 import unittest
-import xmlrpc.client
 
 import rosbag
-import rosgraph
 import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from fsr_pressure_map.msg import MatrixFrame, MatrixInfo
+from terminal import happens, pid_of
 
 SLOW = 10.0   # [Hz], as in the paper: the slowest stream, whose chunk stays open longest
 FAST = 200.0  # [Hz], where it does not matter
@@ -34,9 +33,6 @@ class Recorder:
             ["roslaunch", "fsr_pressure_map", "record.launch", f"bag:={self.bag}", "surface:=cylinder_7cm",
              "subject:=S012", "trial:=2", *arguments])
 
-    def pid(self):
-        uri = rosgraph.Master("/record_test").lookupNode("/fsr/record")
-        return xmlrpc.client.ServerProxy(uri).getPid("/record_test")[2]
 
 
 class RecordTest(unittest.TestCase):
@@ -62,12 +58,7 @@ class RecordTest(unittest.TestCase):
         self.folder.cleanup()
 
     def wait_for(self, condition):
-        for _ in range(600):
-            if condition():
-                return
-            self.assertIsNone(self.recorder.launch.poll(), "record.launch ended by itself")
-            rospy.sleep(0.05)
-        self.fail("the recorder did not come up within 30 s")
+        self.assertTrue(happens(condition, ended=lambda: self.recorder.launch.poll() is not None), "the recorder did not come up")
 
     def publish_scans(self, scan_rate=FAST):
         """Returns the stamps published [s]."""
@@ -165,7 +156,7 @@ class RecordTest(unittest.TestCase):
     def test_what_a_recorder_that_lags_behind_loses_shows_as_a_gap(self):
         self.record()
         self.publish_scans()
-        pid = self.recorder.pid()
+        pid = pid_of("/fsr/record")
         os.kill(pid, signal.SIGSTOP)  # stands for a disk that writes nothing for a while
         scan = MatrixFrame(rows=128, columns=128, full_scale=4095, counts=[1] * 128 ** 2)
         sent = list(range(SCANS, SCANS + 200 + SOCKET_BYTES // (2 * len(scan.counts))))  # 200: more than any queue
@@ -187,7 +178,7 @@ class RecordTest(unittest.TestCase):
         stamps = self.publish_scans(SLOW)
         # The recorder catches up, however late it is; with larger chunks it would not.
         self.wait_for(lambda: stamps[-1] - self.scans_on_disk()[-1].header.stamp.to_sec() < 1.0)
-        os.kill(self.recorder.pid(), signal.SIGKILL)
+        os.kill(pid_of("/fsr/record"), signal.SIGKILL)
         self.recorder.launch.wait(30)  # the launch ends with its recorder
         active = pathlib.Path(f"{self.recorder.bag}.bag.active")
         subprocess.run(["rosbag", "reindex", str(active)], check=True, stdout=subprocess.DEVNULL)
@@ -208,8 +199,7 @@ class RecordTest(unittest.TestCase):
             if active.exists() and active.stat().st_size > 20000:
                 break
             rospy.sleep(0.05)
-        uri = rosgraph.Master("/record_test").lookupNode("/closing")
-        pid = xmlrpc.client.ServerProxy(uri).getPid("/record_test")[2]
+        pid = pid_of("/closing")
         if full:  # the file cannot grow from now on, as on a full disk
             resource.prlimit(pid, resource.RLIMIT_FSIZE, (active.stat().st_size,) * 2)
         os.kill(pid, with_signal)

@@ -11,11 +11,8 @@ import subprocess
 import tempfile
 import threading
 import unittest
-import xmlrpc.client
 
 import rosbag
-import rosgraph
-import rospkg
 import rospy
 import rostest
 import yaml
@@ -23,8 +20,8 @@ from diagnostic_msgs.msg import DiagnosticArray
 from fsr_pressure_map.msg import Instruction, MatrixFrame, MatrixInfo
 from sensor_msgs.msg import FluidPressure, Image
 from std_srvs.srv import Trigger
+from terminal import PACKAGE, happens, pid_of
 
-PACKAGE = pathlib.Path(rospkg.RosPack().get_path("fsr_pressure_map"))
 AMBIENT = 100e3  # [Pa]
 PERIOD = 0.1     # of scans and readings [s]
 PLAN = """
@@ -86,11 +83,7 @@ class SessionTest(unittest.TestCase):
         return self.instruction
 
     def wait_for(self, condition):
-        for _ in range(600):
-            if condition():
-                return
-            rospy.sleep(0.05)
-        self.fail("did not happen within 30 s")
+        self.assertTrue(happens(condition), "did not happen")
 
     def call(self, name):
         rospy.wait_for_service(f"/fsr/conduct/{name}", 10)
@@ -173,8 +166,7 @@ class SessionTest(unittest.TestCase):
         picture = rospy.wait_for_message("/fsr/session_coverage", Image, 10)
         self.assertEqual(picture.encoding, "rgb8")
 
-        uri = rosgraph.Master("/session_test").lookupNode("/fsr/conduct")
-        os.kill(xmlrpc.client.ServerProxy(uri).getPid("/session_test")[2], signal.SIGKILL)
+        os.kill(pid_of("/fsr/conduct"), signal.SIGKILL)
         self.until(lambda now: now.kind == Instruction.MOUNT)  # started again
         self.assertEqual((self.instruction.step, self.instruction.surface), (step + 1, "flat"))
         self.wait_for(lambda: self.scans.get_num_connections() == 1 and self.pressures.get_num_connections() == 1)

@@ -11,7 +11,6 @@ import unittest
 import xmlrpc.client
 
 import rosgraph
-import rospkg
 import rospy
 import rostest
 import yaml
@@ -20,10 +19,8 @@ from fsr_pressure_map.msg import PressureMap, SurfaceCurvature
 from fsr_pressure_map.srv import Mark, SetSurface
 from sensor_msgs.msg import FluidPressure
 from std_srvs.srv import Trigger
+from terminal import PACKAGE, PATIENCE, PROGRAMS, happens
 
-PACKAGE = pathlib.Path(rospkg.RosPack().get_path("fsr_pressure_map"))
-PROGRAMS = pathlib.Path(os.environ["CMAKE_PREFIX_PATH"].split(":")[0]) / "lib" / "fsr_pressure_map"
-PATIENCE = 60  # [s]
 RADII = [0, 0.13, 0.09, 0.07, 0.05]  # [m]; 0 = flat
 CYCLES = [{"cycles": {"peak": 300e3, "rate": 60e3, "dwell_peak": 1, "dwell_rest": 4, "cycles": 2}}]
 
@@ -112,10 +109,8 @@ class ShapeTest(unittest.TestCase):
         self.addCleanup(stop)
         rospy.wait_for_service("/fsr/session/mark", PATIENCE)
         node = xmlrpc.client.ServerProxy(rosgraph.Master("/shape_test").lookupNode("/fsr/session"))
-        end = time.monotonic() + PATIENCE
-        while not any(link[1] == "/fsr/calibration" for link in node.getBusInfo("/shape_test")[2]):
-            self.assertLess(time.monotonic(), end, "the calibration node does not listen to events")
-            time.sleep(0.1)
+        self.assertTrue(happens(lambda: any(link[1] == "/fsr/calibration" for link in node.getBusInfo("/shape_test")[2])),
+                        "the calibration node does not listen to events")
         self.mark = lambda kind: self.assertTrue(rospy.ServiceProxy("/fsr/session/mark", Mark)(kind, "").success)
 
     def await_pressure(self, gauge):

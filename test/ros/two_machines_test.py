@@ -9,6 +9,7 @@ import time
 import unittest
 
 import rostest
+from terminal import PROGRAMS, happens
 
 RIG, STATION = "10.77.13.1", "10.77.13.2"
 
@@ -66,11 +67,7 @@ class TwoMachinesTest(unittest.TestCase):
         return child
 
     def wait_for(self, condition):
-        for _ in range(1200):
-            if condition():
-                return
-            time.sleep(0.05)
-        self.fail("did not happen within a minute")
+        self.assertTrue(happens(condition), "did not happen")
 
     def master_answers(self):
         return subprocess.run(["ip", "netns", "exec", self.station, "bash", "-c", f"exec 3<>/dev/tcp/{RIG}/11311"],
@@ -88,14 +85,13 @@ class TwoMachinesTest(unittest.TestCase):
         return last
 
     def test_maps_come_back_after_the_cable(self):
-        programs = pathlib.Path(os.environ["CMAKE_PREFIX_PATH"].split(":")[0]) / "lib" / "fsr_pressure_map"
         port = pathlib.Path(self.folder.name) / "board"
         heard = pathlib.Path(self.folder.name) / "heard"
         self.start(self.rig, RIG, "rosmaster", "--core", "-p", "11311")
         self.wait_for(self.master_answers)
-        self.start(self.rig, RIG, str(programs / "rig_emulator_node"), f"_link:={port}")
-        self.start(self.rig, RIG, str(programs / "driver_node"), f"_serial_port:={port}", "_serial_baud:=0")
-        self.start(self.station, STATION, str(programs / "calibration_node"))
+        self.start(self.rig, RIG, str(PROGRAMS / "rig_emulator_node"), f"_link:={port}")
+        self.start(self.rig, RIG, str(PROGRAMS / "driver_node"), f"_serial_port:={port}", "_serial_baud:=0")
+        self.start(self.station, STATION, str(PROGRAMS / "calibration_node"))
         with open(heard, "w", encoding="ascii") as file:
             self.start(self.station, STATION, "/usr/bin/python3", "-c", LISTENER, stdout=file)
         lines = lambda: heard.read_text(encoding="ascii").splitlines()
