@@ -116,11 +116,20 @@ struct Curves {
   }
 };
 
-// Range of a straight line through a curve, times the share of the curve's variance.
+// Range of a straight line through a curve, times the share of the curve's variance; but not more than what
+// half of the points show. Beside a fault that lasts through most readings, a few that it has not met would
+// make a line.
 double responseOf(const Eigen::ArrayXd& at, const Eigen::ArrayXd& value) {
   const Eigen::ArrayXd x = at - at.mean(), y = value - value.mean();
   const double xx = x.square().sum(), xy = (x * y).sum(), yy = y.square().sum();
-  return xx > 0 && yy > 0 ? std::max(0.0, xy / xx) * (at[at.size() - 1] - at[0]) * xy * xy / (xx * yy) : 0;
+  if (!(xx > 0 && yy > 0)) return 0;
+  const double range = at[at.size() - 1] - at[0];
+  std::vector<double> rises;
+  for (Eigen::Index k = 1; k < at.size(); ++k) {
+    if (at[k] > at[0]) rises.push_back((value[k] - value[0]) / (at[k] - at[0]));
+  }
+  const double line = xy / xx * xy * xy / (xx * yy);
+  return range * std::max(0.0, std::min(line, statistics::upperMedian(rises, 0)));
 }
 
 class CourseBuilder {

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "health/reading_rule.h"
 #include "health/recorded.h"
 
@@ -13,15 +15,28 @@ namespace {
 using map::taxel_flag::kDead;
 using map::taxel_flag::kStuck;
 
-std::vector<Fault> faultsOf(const dataset::Recording& recording) {
+// `again`: scan at which the sheet was mounted again; 0 = it was not.
+std::vector<Fault> faultsOf(const dataset::Recording& recording, std::size_t again = 0) {
   Sheet sheet{recording.layout,
               double(recording.full_scale),
               {},
               std::vector<bool>(recording.layout.size.taxels(), true)};
-  sheet.stays.push_back({&recording, 0, recording.scans(), 0, 0, {}});
-  for (std::size_t i = 0; i < recording.scans(); ++i)
-    sheet.stays[0].rising.push_back(i > 0 && recording.pressure[i] > recording.pressure[i - 1]);
+  if (again > 0) sheet.stays.push_back({&recording, 0, again, 0, 0, {}});
+  sheet.stays.push_back({&recording, again, recording.scans(), 0, 0, {}});
+  for (Stay& stay : sheet.stays) {
+    for (std::size_t i = stay.first; i < stay.last; ++i)
+      stay.rising.push_back(i > stay.first && recording.pressure[i] > recording.pressure[i - 1]);
+  }
   return findFaults(sheet).faults;
+}
+
+dataset::Recording joined(dataset::Recording recording, const dataset::Recording& more) {
+  const double end = 2 * recording.time.back() - recording.time[recording.scans() - 2];
+  for (const double time : more.time) recording.time.push_back(end + time);
+  recording.counts.insert(recording.counts.end(), more.counts.begin(), more.counts.end());
+  recording.pressure.insert(recording.pressure.end(), more.pressure.begin(), more.pressure.end());
+  recording.condition.resize(recording.scans(), 0);
+  return recording;
 }
 
 // Sets the readings of the taxels in the middle tenth of the recording.
@@ -57,21 +72,37 @@ TEST(FaultsOfASheet, AreOfNoKindWhereTheTaxelStillFollowsTheLoad) {
 TEST(FaultsOfASheet, AreFoundWhereASlowCycleOutweighsTheOthers) {
   test_support::SyntheticRig rig;
   rig.size = {4, 5};
-  dataset::Recording recording = test_support::syntheticRecording(rig);
+  const dataset::Recording fast = test_support::syntheticRecording(rig);
   rig.scans_per_cycle *= 10;
   rig.cycles = 1;
-  const dataset::Recording slow = test_support::syntheticRecording(rig);
-  const double end = recording.time.back() + 1 / rig.rate;
-  for (const double time : slow.time) recording.time.push_back(end + time);
-  recording.counts.insert(recording.counts.end(), slow.counts.begin(), slow.counts.end());
-  recording.pressure.insert(recording.pressure.end(), slow.pressure.begin(), slow.pressure.end());
-  recording.condition.resize(recording.scans(), 0);
+  dataset::Recording recording = joined(fast, test_support::syntheticRecording(rig));
   for (std::size_t i = recording.scans() - 950; i < recording.scans() - 50; ++i)
     recording.counts[i * 20 + 13] = 1400;
   const std::vector<Fault> faults = faultsOf(recording);
   ASSERT_EQ(faults.size(), 1u);
   EXPECT_TRUE(faults[0].kind == FaultKind::kStuckTaxels);
   EXPECT_NEAR(faults[0].share, 900.0 / double(recording.scans()), 0.05);
+}
+
+// After a new mounting the taxel loses its contact and has it again before the highest cycle.
+TEST(FaultsOfASheet, AreFoundWhereOnlyHighReadingsOfAMountingAreSound) {
+  test_support::SyntheticRig rig;
+  rig.size = {4, 5};
+  const dataset::Recording before = test_support::syntheticRecording(rig);
+  rig.peak *= 0.2;
+  const dataset::Recording low = test_support::syntheticRecording(rig);
+  rig.peak /= 0.2;
+  rig.cycles = 1;
+  dataset::Recording recording = joined(joined(before, low), test_support::syntheticRecording(rig));
+  const std::size_t again = before.scans(), lost = low.scans() * 9 / 10;
+  for (std::size_t i = 0; i < lost; ++i) {
+    std::uint16_t& count = recording.counts[(again + i) * 20 + 13];
+    count = static_cast<std::uint16_t>(count * std::exp(-double(i) / 60));
+  }
+  const std::vector<Fault> faults = faultsOf(recording, again);
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_TRUE(faults[0].kind == FaultKind::kDeadTaxels);
+  EXPECT_NEAR(faults[0].share, double(lost) / double(recording.scans()), 0.05);
 }
 
 // The median of a line counts, so one taxel makes no line.
