@@ -15,7 +15,7 @@ import rosservice
 import rostest
 from diagnostic_msgs.msg import DiagnosticArray
 from fsr_pressure_map.msg import CalibrationInfo, MatrixInfo, PressureMap, PressureStatistics, PressureStatisticsArray, SurfaceCurvature
-from terminal import PACKAGE, PATIENCE, PROGRAMS, Terminal, happens, pid_of
+from terminal import PACKAGE, PATIENCE, PROGRAMS, Terminal, happens, pid_if_running, pid_of
 from tf2_msgs.msg import TFMessage
 
 BENCH = PACKAGE / "config" / "simulation" / "bench.yaml"  # 3 x 4 taxels
@@ -108,7 +108,7 @@ class LaunchFilesTest(unittest.TestCase):
         for node in ("/fsr/calibration", "/fsr/curvature", "/fsr/view"):
             pid = pid_of(node)
             os.kill(pid, signal.SIGKILL)
-            self.wait_for(lambda: pid_of(node) not in (0, pid), rig)
+            self.wait_for(lambda: pid_if_running(node) not in (0, pid), rig)
         surface = rospy.wait_for_message("/fsr/curvature", SurfaceCurvature, PATIENCE)
         self.assertEqual((surface.surface, surface.mount), ("cylinder_5cm", 2))
         maps = self.wait_for_maps(rig)
@@ -217,13 +217,13 @@ class LaunchFilesTest(unittest.TestCase):
     def test_launch_files_notice_each_other(self):
         self.connect_board()
         driver = self.start_with_board("driver")
-        self.wait_for(lambda: pid_of("/fsr/driver"), driver)
-        before = pid_of("/fsr/driver")
+        self.wait_for(lambda: pid_if_running("/fsr/driver"), driver)
+        before = pid_if_running("/fsr/driver")
         refusal = self.refused("calibrated", f"serial_port:={self.port}")
         self.assertIn("the node /fsr/driver runs", refusal)
         self.assertIn("`roslaunch fsr_pressure_map driver.launch serial_port", refusal)
         self.assertIn(f"(process {driver.launch.pid})", refusal)
-        self.assertEqual(pid_of("/fsr/driver"), before)
+        self.assertEqual(pid_if_running("/fsr/driver"), before)
         self.assertIsNone(driver.launch.poll())
         refusal = self.refused("calibrated", "ns:=other", "pitchx:=0.02")
         self.assertIn("calibrated.launch has no argument pitchx (pitchx:=0.02); did you mean pitch_x?", refusal)
@@ -248,13 +248,13 @@ class LaunchFilesTest(unittest.TestCase):
     def test_a_node_waits_for_a_right_setting(self):
         rig = self.start("calibrated", self.lab(serial_port=self.port, rows=900, unit="bar"), "surface:=no_such")
         self.wait_for(lambda: rig.said().count("tries again each second") == 3, rig)
-        nodes = {node: pid_of(node) for node in ("/fsr/driver", "/fsr/view", "/fsr/curvature")}
+        nodes = {node: pid_if_running(node) for node in ("/fsr/driver", "/fsr/view", "/fsr/curvature")}
         rospy.set_param("/fsr/curvature/surface", "flat")
         self.lab(serial_port=self.port)
-        self.wait_for(lambda: all(pid_of(node) for node in nodes) and "there is no serial port" in rig.said(), rig)
+        self.wait_for(lambda: all(pid_if_running(node) for node in nodes) and "there is no serial port" in rig.said(), rig)
         for service in ("/fsr/view/set_alarm", "/fsr/curvature/set_surface"):
             rospy.wait_for_service(service, PATIENCE)
-        self.assertEqual({node: pid_of(node) for node in nodes}, nodes, rig.said())
+        self.assertEqual({node: pid_if_running(node) for node in nodes}, nodes, rig.said())
         said = rig.end()
         self.assertEqual(said.count("tries again each second"), 3, said)
         self.assertNotIn("has died", said)

@@ -49,7 +49,7 @@ class MasterTest(unittest.TestCase):
             return probe.connect_ex(("127.0.0.1", self.port)) == 0
 
     def wait_for(self, condition):
-        self.assertTrue(happens(condition), "did not happen")
+        self.assertTrue(happens(condition, patience=30), "did not happen")
 
     def test_a_recording_goes_on_without_its_master(self):
         master = self.start_master()

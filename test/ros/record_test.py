@@ -58,7 +58,7 @@ class RecordTest(unittest.TestCase):
         self.folder.cleanup()
 
     def wait_for(self, condition):
-        self.assertTrue(happens(condition, ended=lambda: self.recorder.launch.poll() is not None), "the recorder did not come up")
+        self.assertTrue(happens(condition, ended=lambda: self.recorder.launch.poll() is not None, patience=30), "the recorder did not come up")
 
     def publish_scans(self, scan_rate=FAST):
         """Returns the stamps published [s]."""

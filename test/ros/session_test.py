@@ -83,7 +83,7 @@ class SessionTest(unittest.TestCase):
         return self.instruction
 
     def wait_for(self, condition):
-        self.assertTrue(happens(condition), "did not happen")
+        self.assertTrue(happens(condition, patience=30), "did not happen")
 
     def call(self, name):
         rospy.wait_for_service(f"/fsr/conduct/{name}", 10)

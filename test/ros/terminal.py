@@ -26,9 +26,14 @@ def happens(condition, ended=lambda: False, patience=PATIENCE):
 
 
 def pid_of(node):
+    """Raises if there is no such node: a signal to process 0 would end the test itself."""
+    return xmlrpc.client.ServerProxy(rosgraph.Master("/tests").lookupNode(node)).getPid("/tests")[2]
+
+
+def pid_if_running(node):
     """0 if there is no such node."""
     try:
-        return xmlrpc.client.ServerProxy(rosgraph.Master("/tests").lookupNode(node)).getPid("/tests")[2]
+        return pid_of(node)
     except (rosgraph.MasterException, OSError):
         return 0
 
