@@ -213,12 +213,11 @@ void Verdicts::tellEffects() {
   for (const std::size_t e : order) addPartners(appraisal_.all[e].explaining.ids);
   const std::vector<std::size_t> partners(credible_.begin() + static_cast<std::ptrdiff_t>(order.size()),
                                           credible_.end());
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    decision_.others.push_back(preferring(order, partners));
+  static_cast<Preference&>(decision_) = preferring(order, partners);
+  for (std::size_t k = 1; k < order.size(); ++k) {
     std::rotate(order.begin(), order.begin() + 1, order.end());
+    decision_.others.push_back(preferring(order, partners));
   }
-  static_cast<Preference&>(decision_) = decision_.others.front();
-  decision_.others.erase(decision_.others.begin());
   told_ = &search_.preferred();
   tellRest();
   decision_.verdict = decision_.credible.size() > 1 ? Verdict::kAmbiguous
