@@ -218,9 +218,22 @@ std::vector<double> amplitudes(const simulation::EffectInfo& info,
   return strengths;
 }
 
-std::vector<Signature> planned(const simulation::SimulationSettings& settings,
-                               const std::vector<std::string>& leave_out) {
-  std::vector<Signature> plan;
+// Signatures of one derivative, at several amplitudes.
+using Kin = std::vector<Signature>;
+
+Kin kinOf(Signature signature, const std::vector<double>& amplitudes, bool state_kept) {
+  Kin kin;
+  signature.state_kept = state_kept;
+  for (const double amplitude : amplitudes) {
+    signature.amplitude = amplitude;
+    kin.push_back(signature);
+  }
+  return kin;
+}
+
+std::vector<Kin> planned(const simulation::SimulationSettings& settings,
+                         const std::vector<std::string>& leave_out) {
+  std::vector<Kin> plan;
   for (const simulation::EffectEntry& entry : simulation::libraryOf(settings).entries()) {
     if (!sought(entry, settings, leave_out)) continue;
     for (const simulation::EffectValues& values : shapeGrid(entry.info)) {
@@ -232,14 +245,9 @@ std::vector<Signature> planned(const simulation::SimulationSettings& settings,
         signature.values.erase(strength.name);
         signature.free_sign = entry.info.sign == simulation::SignRule::kEither;
         signature.scale = entry.info.sign == simulation::SignRule::kNegative ? -1 : 1;
-        for (const double amplitude : amplitudes(entry.info, strength)) {
-          signature.amplitude = amplitude;
-          signature.state_kept = true;
-          plan.push_back(signature);
-          if (!remembers(entry)) continue;
-          signature.state_kept = false;
-          plan.push_back(signature);
-        }
+        const std::vector<double> taken_at = amplitudes(entry.info, strength);
+        plan.push_back(kinOf(signature, taken_at, true));
+        if (remembers(entry)) plan.push_back(kinOf(signature, taken_at, false));
       }
     }
   }
@@ -331,22 +339,28 @@ bool mayBeFound(const std::string& id, const simulation::SimulationSettings& set
 std::vector<Signature> signatures(const Measured& measured, const StaticFit& fit,
                                   const simulation::SimulationSettings& settings,
                                   const std::vector<std::string>& leave_out, unsigned threads) {
-  std::vector<Signature> all = planned(settings, leave_out);
-  matrix::forEachTaxel(all.size(), threads, [&](std::size_t s) {
-    Signature& signature = all[s];
-    if (!possible(signature.values)) return;
-    const DrivenSignals derivative = drivenDerivative(measured, settings, signature.id, signature.strength,
-                                                      signature.values, signature.state_kept);
-    Trace trace =
-        throughCurve(measured, fit, derivative, measured.info(signature.id).stage, signature.amplitude);
-    const double rms = std::sqrt(trace.squaredNorm() / static_cast<double>(trace.size()));
-    if (!(rms > 0) || !std::isfinite(rms)) return;
-    trace *= signature.scale / rms;
-    signature.scale /= rms;
-    signature.trace = std::move(trace);
+  std::vector<Kin> plan = planned(settings, leave_out);
+  matrix::forEachTaxel(plan.size(), threads, [&](std::size_t k) {
+    const Signature& first = plan[k].front();
+    if (!possible(first.values)) return;
+    const DrivenSignals derivative =
+        drivenDerivative(measured, settings, first.id, first.strength, first.values, first.state_kept);
+    const simulation::ChainStage stage = measured.info(first.id).stage;
+    for (Signature& signature : plan[k]) {
+      Trace trace = throughCurve(measured, fit, derivative, stage, signature.amplitude);
+      const double rms = std::sqrt(trace.squaredNorm() / static_cast<double>(trace.size()));
+      if (!(rms > 0) || !std::isfinite(rms)) continue;
+      trace *= signature.scale / rms;
+      signature.scale /= rms;
+      signature.trace = std::move(trace);
+    }
   });
-  const auto nothing = [](const Signature& s) { return s.trace.size() == 0; };
-  all.erase(std::remove_if(all.begin(), all.end(), nothing), all.end());
+  std::vector<Signature> all;
+  for (Kin& kin : plan) {
+    for (Signature& signature : kin) {
+      if (signature.trace.size() > 0) all.push_back(std::move(signature));
+    }
+  }
   return all;
 }
 
