@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "dataset/count_readers.h"
 #include "matrix/for_each_taxel.h"
@@ -218,22 +219,10 @@ std::vector<double> amplitudes(const simulation::EffectInfo& info,
   return strengths;
 }
 
-// Signatures of one derivative, at several amplitudes.
-using Kin = std::vector<Signature>;
-
-Kin kinOf(Signature signature, const std::vector<double>& amplitudes, bool state_kept) {
-  Kin kin;
-  signature.state_kept = state_kept;
-  for (const double amplitude : amplitudes) {
-    signature.amplitude = amplitude;
-    kin.push_back(signature);
-  }
-  return kin;
-}
-
-std::vector<Kin> planned(const simulation::SimulationSettings& settings,
-                         const std::vector<std::string>& leave_out) {
-  std::vector<Kin> plan;
+// One signature for each derivative, without its amplitude.
+std::vector<Signature> planned(const simulation::SimulationSettings& settings,
+                               const std::vector<std::string>& leave_out) {
+  std::vector<Signature> plan;
   for (const simulation::EffectEntry& entry : simulation::libraryOf(settings).entries()) {
     if (!sought(entry, settings, leave_out)) continue;
     for (const simulation::EffectValues& values : shapeGrid(entry.info)) {
@@ -245,9 +234,10 @@ std::vector<Kin> planned(const simulation::SimulationSettings& settings,
         signature.values.erase(strength.name);
         signature.free_sign = entry.info.sign == simulation::SignRule::kEither;
         signature.scale = entry.info.sign == simulation::SignRule::kNegative ? -1 : 1;
-        const std::vector<double> taken_at = amplitudes(entry.info, strength);
-        plan.push_back(kinOf(signature, taken_at, true));
-        if (remembers(entry)) plan.push_back(kinOf(signature, taken_at, false));
+        plan.push_back(signature);
+        if (!remembers(entry)) continue;
+        signature.state_kept = false;
+        plan.push_back(signature);
       }
     }
   }
@@ -339,28 +329,28 @@ bool mayBeFound(const std::string& id, const simulation::SimulationSettings& set
 std::vector<Signature> signatures(const Measured& measured, const StaticFit& fit,
                                   const simulation::SimulationSettings& settings,
                                   const std::vector<std::string>& leave_out, unsigned threads) {
-  std::vector<Kin> plan = planned(settings, leave_out);
+  const std::vector<Signature> plan = planned(settings, leave_out);
+  std::vector<std::vector<Signature>> of_derivative(plan.size());
   matrix::forEachTaxel(plan.size(), threads, [&](std::size_t k) {
-    const Signature& first = plan[k].front();
-    if (!possible(first.values)) return;
+    const Signature& one = plan[k];
+    if (!possible(one.values)) return;
     const DrivenSignals derivative =
-        drivenDerivative(measured, settings, first.id, first.strength, first.values, first.state_kept);
-    const simulation::ChainStage stage = measured.info(first.id).stage;
-    for (Signature& signature : plan[k]) {
-      Trace trace = throughCurve(measured, fit, derivative, stage, signature.amplitude);
+        drivenDerivative(measured, settings, one.id, one.strength, one.values, one.state_kept);
+    const simulation::EffectInfo& info = measured.info(one.id);
+    for (const double amplitude : amplitudes(info, simulation::parameter(info, one.strength))) {
+      Trace trace = throughCurve(measured, fit, derivative, info.stage, amplitude);
       const double rms = std::sqrt(trace.squaredNorm() / static_cast<double>(trace.size()));
       if (!(rms > 0) || !std::isfinite(rms)) continue;
-      trace *= signature.scale / rms;
+      Signature signature = one;
+      signature.amplitude = amplitude;
       signature.scale /= rms;
-      signature.trace = std::move(trace);
+      signature.trace = trace * (one.scale / rms);
+      of_derivative[k].push_back(std::move(signature));
     }
   });
   std::vector<Signature> all;
-  for (Kin& kin : plan) {
-    for (Signature& signature : kin) {
-      if (signature.trace.size() > 0) all.push_back(std::move(signature));
-    }
-  }
+  for (std::vector<Signature>& some : of_derivative)
+    std::move(some.begin(), some.end(), std::back_inserter(all));
   return all;
 }
 
