@@ -125,16 +125,25 @@ class Dense {
     }
     return chosen;
   }
-  // Beside the noise there is what the other cycles leave open in the static model.
+  // Squared error of a cycle, and the logarithm of its density without constants. Beside the noise there is
+  // what the other cycles leave open in the static model and in the coefficients.
   double squaredError(std::size_t cycle, double variance) const {
-    const Eigen::VectorXd left = design_.cycles[cycle].reading - rows(cycle) * mode(variance);
-    const Eigen::MatrixXd statics = rows(cycle).leftCols(model_.size());
-    return left.dot((weight(cycle).inverse() + statics * precision(0).ldlt().solve(statics.transpose()))
-                        .ldlt()
-                        .solve(left));
+    const Eigen::VectorXd left = leftOf(cycle, variance);
+    return left.dot(spread(cycle, variance).ldlt().solve(left));
+  }
+  double logDensity(std::size_t cycle, double variance) const {
+    const Eigen::VectorXd pivots = spread(cycle, variance).ldlt().vectorD();
+    return -0.5 * (squaredError(cycle, variance) + pivots.array().log().sum());
   }
 
  private:
+  Eigen::VectorXd leftOf(std::size_t cycle, double variance) const {
+    return design_.cycles[cycle].reading - rows(cycle) * mode(variance);
+  }
+  Eigen::MatrixXd spread(std::size_t cycle, double variance) const {
+    const Eigen::MatrixXd known = precision(variance), own = rows(cycle).leftCols(known.rows());
+    return weight(cycle).inverse() + own * known.ldlt().solve(own.transpose());
+  }
   Eigen::MatrixXd precision(double variance) const {
     if (!(variance > 0)) return gram_.topLeftCorner(model_.size(), model_.size());
     Eigen::MatrixXd precision = gram_;
@@ -165,7 +174,7 @@ TEST(HeldOutScores, EqualADenseComputation) {
     const double variance = dense.bestVariance();
     EXPECT_GT(variance, 0) << "the example shows the loop";
     const double alone = dense.squaredError(c, 0);
-    const double nats = 0.5 * (alone - dense.squaredError(c, variance));
+    const double nats = dense.logDensity(c, variance) - dense.logDensity(c, 0);
     EXPECT_NEAR(scores.scores()[0].nats[c], nats, 1e-6 * alone) << c;
     total += nats;
     loss += alone;

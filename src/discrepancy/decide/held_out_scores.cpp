@@ -162,16 +162,40 @@ void addTo(Eigen::MatrixXd& sum, const std::vector<Index>& rows, const Eigen::Ma
   for (std::size_t a = 0; a < rows.size(); ++a) sum.row(rows[a]) += part.row(static_cast<Index>(a));
 }
 
-// What a random course adds to the predictive density because its course in the cycle is not known: the
-// covariance of what is predicted, given the other cycles. `left`: whitened error less the prediction.
-double natsOfCovariance(Eigen::MatrixXd gram, double variance, const Eigen::MatrixXd& columns,
-                        const Eigen::VectorXd& left) {
-  gram.diagonal().array() += 1 / variance;
-  const Eigen::LLT<Eigen::MatrixXd> before(gram), after(gram + columns.transpose() * columns);
-  const Eigen::VectorXd pull = after.matrixL().solve(columns.transpose() * left);
-  return 0.5 * pull.squaredNorm() + before.matrixLLT().diagonal().array().log().sum() -
-         after.matrixLLT().diagonal().array().log().sum();
-}
+// What a form that was fitted to other cycles predicts: its coefficients at the posterior mode, and their
+// covariance. `gram`: of the fit. Columns that signs leave out predict nothing.
+class FormPrediction {
+ public:
+  FormPrediction(const Eigen::MatrixXd& gram, const FormFit& fit) : mean_(fit.coefficients) {
+    for (Index k = 0; k < mean_.size(); ++k) {
+      if (mean_[k] != 0) used_.push_back(k);
+    }
+    precision_ = among(gram, used_);
+    precision_.diagonal().array() += 1 / fit.variance;
+    root_ = sumOfLogs(Eigen::LLT<Eigen::MatrixXd>(precision_));
+  }
+
+  // What it adds to the logarithm of the predictive density of a cycle [nats]. `columns`, `error`: whitened,
+  // the statics subtracted.
+  double nats(const Eigen::MatrixXd& columns, const Eigen::VectorXd& error) const {
+    const Eigen::VectorXd predicted = columns * mean_, left = error - predicted;
+    const Eigen::MatrixXd used = columns(Eigen::all, used_);
+    const Eigen::LLT<Eigen::MatrixXd> after(precision_ + used.transpose() * used);
+    const Eigen::VectorXd pull = after.matrixL().solve(used.transpose() * left);
+    return predicted.dot(error) - 0.5 * predicted.squaredNorm() + 0.5 * pull.squaredNorm() + root_ -
+           sumOfLogs(after);
+  }
+
+ private:
+  static double sumOfLogs(const Eigen::LLT<Eigen::MatrixXd>& root) {
+    return root.matrixLLT().diagonal().array().log().sum();
+  }
+
+  Eigen::VectorXd mean_;
+  std::vector<Index> used_;
+  Eigen::MatrixXd precision_;
+  double root_ = 0;  // half the logarithm of the determinant of the precision
+};
 
 Eigen::MatrixXd rowsOf(const Eigen::MatrixXd& matrix, const std::vector<Index>& rows) {
   Eigen::MatrixXd chosen(static_cast<Index>(rows.size()), matrix.cols());
@@ -364,8 +388,6 @@ void HeldOutScores::solveFolds() {
     if (f == fold_number_) mixed_ = std::move(others.mixed);
     if (f == fold_number_) break;
     const Eigen::VectorXd curve = fold.inverse * others.static_reading;
-    fold.test_gram = noGrams();
-    fold.test_static = Eigen::MatrixXd::Zero(columns, statics);
     for (Whitened& w : cycles_) {
       if (w.fold != f || w.covered.empty()) continue;
       whitenTest(w, fold.inverse);
@@ -373,10 +395,6 @@ void HeldOutScores::solveFolds() {
       for (std::size_t a = 0; a < w.places.size(); ++a) own[static_cast<Index>(a)] = curve[w.places[a]];
       w.test_net = w.test_columns - w.test_statics * rowsOf(fold.solved, w.places);
       w.test_error = w.test_reading - w.test_statics * own;
-      addGrams(w.test_net, fold.test_gram);
-      const Eigen::MatrixXd with = w.test_net.transpose() * w.test_statics;
-      for (std::size_t a = 0; a < w.places.size(); ++a)
-        fold.test_static.col(w.places[a]) += with.col(static_cast<Index>(a));
       loss_ += w.test_error.squaredNorm();
       expected_loss_ += static_cast<double>(w.covered.size());
     }
@@ -422,15 +440,11 @@ void HeldOutScores::score() {
         if (i == 0 || fit.likelihood > best.likelihood) best = fit, at = i;
       }
       if (best.variance == 0) continue;
+      const FormPrediction prediction(folds_[f].gram[first + at], best);
       for (std::size_t c = 0; c < cycles_.size(); ++c) {
         const Whitened& w = cycles_[c];
         if (w.fold != f || w.covered.empty()) continue;
-        const Eigen::MatrixXd columns = columnsOf(w.test_net, explanation.forms[at]);
-        const Eigen::VectorXd predicted = columns * best.coefficients;
-        score.nats[c] = predicted.dot(w.test_error) - 0.5 * predicted.squaredNorm();
-        if (explanation.by_chance)
-          score.nats[c] +=
-              natsOfCovariance(folds_[f].gram[first + at], best.variance, columns, w.test_error - predicted);
+        score.nats[c] = prediction.nats(columnsOf(w.test_net, explanation.forms[at]), w.test_error);
       }
     }
     for (std::size_t i = 0; i < explanation.forms.size(); ++i) {
@@ -444,17 +458,16 @@ void HeldOutScores::score() {
   }
 }
 
-// Sums over the cycles of a fold, one column for each draw.
+// Noise, one column for each draw.
 struct HeldOutScores::Drawn {
-  Eigen::MatrixXd statics;  // products of the whitened statics with the noise
+  Eigen::MatrixXd statics;  // products of the whitened statics with it, of each static [all cycles of a fold]
   Eigen::MatrixXd columns;  // likewise, of the explanations' columns
-  Eigen::MatrixXd test;     // of the columns in the fold's own cycles
 };
 
-std::vector<HeldOutScores::Drawn> HeldOutScores::draw(Index draws, std::uint64_t seed) const {
+std::vector<HeldOutScores::Drawn> HeldOutScores::draw(Index draws, std::uint64_t seed,
+                                                      std::vector<Eigen::MatrixXd>& test) const {
   const Index statics = all_.inverse.rows(), columns = all_.right.size();
-  Drawn nothing{Eigen::MatrixXd::Zero(statics, draws), Eigen::MatrixXd::Zero(columns, draws),
-                Eigen::MatrixXd::Zero(columns, draws)};
+  const Drawn nothing{Eigen::MatrixXd::Zero(statics, draws), Eigen::MatrixXd::Zero(columns, draws)};
   std::vector<Drawn> drawn(fold_number_, nothing);
   for (std::size_t c = 0; c < cycles_.size(); ++c) {
     const Whitened& w = cycles_[c];
@@ -463,32 +476,39 @@ std::vector<HeldOutScores::Drawn> HeldOutScores::draw(Index draws, std::uint64_t
     for (Index i = 0; i < z.size(); ++i) z.data()[i] = stream.normal(static_cast<std::uint64_t>(i));
     addTo(drawn[w.fold].statics, w.places, w.statics.transpose() * z);
     drawn[w.fold].columns += w.columns.transpose() * z;
-    if (w.covered.empty()) continue;
-    const Eigen::MatrixXd noise = rowsOf(w.root * z, w.covered);
-    drawn[w.fold].test += w.test_net.transpose() * w.test_root.triangularView<Eigen::Lower>().solve(noise);
+    test[c] = w.test_root.triangularView<Eigen::Lower>().solve(rowsOf(w.root * z, w.covered));
   }
   return drawn;
 }
 
-// What an explanation gains in the cycles of one fold, for each draw. `right`, `net`: products of the columns
-// with the noise of the other folds and with that of the fold itself.
-void HeldOutScores::addGains(const Fold& fold, std::size_t explanation, const Eigen::MatrixXd& right,
-                             const Eigen::MatrixXd& net, std::vector<double>& totals) const {
-  std::vector<double> likelihood(totals.size(), 0.0), gained(totals.size(), 0.0);
-  for (std::size_t i = 0; i < explanations_[explanation].forms.size(); ++i) {
-    const Form& form = explanations_[explanation].forms[i];
-    const FormFitter fitter(fold.gram[first_form_[explanation] + i], form.free);
-    const Eigen::MatrixXd& own = fold.test_gram[first_form_[explanation] + i];
-    const Eigen::MatrixXd own_right = rowsOf(right, placesOf(form)), own_net = rowsOf(net, placesOf(form));
+// What an explanation gains in the cycles of one fold, for each draw. `right`: products of the columns with
+// the noise of the other folds. `errors`: of each cycle, the static model fitted to the other folds.
+void HeldOutScores::addGains(std::size_t f, std::size_t explanation, const Eigen::MatrixXd& right,
+                             const std::vector<Eigen::MatrixXd>& errors, std::vector<double>& totals) const {
+  const std::vector<Form>& forms = explanations_[explanation].forms;
+  std::vector<FormFit> best(totals.size());
+  std::vector<std::size_t> at(totals.size());
+  for (std::size_t i = 0; i < forms.size(); ++i) {
+    const FormFitter fitter(folds_[f].gram[first_form_[explanation] + i], forms[i].free);
+    const Eigen::MatrixXd own = rowsOf(right, placesOf(forms[i]));
     for (std::size_t d = 0; d < totals.size(); ++d) {
-      const auto at = static_cast<Index>(d);
-      const FormFit fit = fitter.fit(own_right.col(at));
-      if (fit.likelihood <= likelihood[d]) continue;
-      likelihood[d] = fit.likelihood;
-      gained[d] = fit.coefficients.dot(own_net.col(at)) - 0.5 * fit.coefficients.dot(own * fit.coefficients);
+      const FormFit fit = fitter.fit(own.col(static_cast<Index>(d)));
+      if (fit.likelihood > best[d].likelihood) best[d] = fit, at[d] = i;
     }
   }
-  for (std::size_t d = 0; d < totals.size(); ++d) totals[d] += gained[d];
+  std::vector<std::vector<Eigen::MatrixXd>> columns(cycles_.size());  // of each cycle of the fold and form
+  for (std::size_t c = 0; c < cycles_.size(); ++c) {
+    if (cycles_[c].fold != f || cycles_[c].covered.empty()) continue;
+    for (const Form& form : forms) columns[c].push_back(columnsOf(cycles_[c].test_net, form));
+  }
+  for (std::size_t d = 0; d < totals.size(); ++d) {
+    if (best[d].variance == 0) continue;
+    const FormPrediction prediction(folds_[f].gram[first_form_[explanation] + at[d]], best[d]);
+    for (std::size_t c = 0; c < cycles_.size(); ++c) {
+      if (!columns[c].empty())
+        totals[d] += prediction.nats(columns[c][at[d]], errors[c].col(static_cast<Index>(d)));
+    }
+  }
 }
 
 // The largest marginal likelihood of the forms of an explanation, for each draw.
@@ -505,7 +525,8 @@ std::vector<double> HeldOutScores::likelihoods(std::size_t explanation, const Ei
 }
 
 NullScores HeldOutScores::nullScores(std::size_t draws, std::uint64_t seed, unsigned threads) const {
-  const std::vector<Drawn> drawn = draw(static_cast<Index>(draws), seed);
+  std::vector<Eigen::MatrixXd> errors(cycles_.size());  // of each cycle, one column for each draw
+  const std::vector<Drawn> drawn = draw(static_cast<Index>(draws), seed, errors);
   Drawn all = drawn.front();
   for (std::size_t f = 1; f < fold_number_; ++f) {
     all.statics += drawn[f].statics;
@@ -517,9 +538,13 @@ NullScores HeldOutScores::nullScores(std::size_t draws, std::uint64_t seed, unsi
     const Fold& fold = folds_[f];
     const Eigen::MatrixXd statics = all.statics - drawn[f].statics;
     const Eigen::MatrixXd right = all.columns - drawn[f].columns - fold.solved.transpose() * statics;
-    const Eigen::MatrixXd net = drawn[f].test - fold.test_static * (fold.inverse * statics);
+    const Eigen::MatrixXd curves = fold.inverse * statics;
+    for (std::size_t c = 0; c < cycles_.size(); ++c) {
+      const Whitened& w = cycles_[c];
+      if (w.fold == f && !w.covered.empty()) errors[c] -= w.test_statics * rowsOf(curves, w.places);
+    }
     matrix::forEachTaxel(explanations_.size(), threads, [&](std::size_t e) {
-      if (!explanations_[e].by_chance) addGains(fold, e, right, net, null.of[e]);
+      if (!explanations_[e].by_chance) addGains(f, e, right, errors, null.of[e]);
     });
   }
   const Eigen::MatrixXd right = all.columns - all_.solved.transpose() * all.statics;

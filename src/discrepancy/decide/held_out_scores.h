@@ -79,12 +79,10 @@ class HeldOutScores {
  private:
   using Grams = std::vector<Eigen::MatrixXd>;  // products of the columns of each form
   struct Fold {
-    Eigen::MatrixXd solved;       // prior-regularised statics' inverse times their products with the columns
-    Eigen::MatrixXd inverse;      // of the regularised statics
-    Grams gram;                   // statics eliminated
-    Eigen::VectorXd right;        // likewise, with the reading
-    Grams test_gram;              // in the fold's own cycles, statics subtracted
-    Eigen::MatrixXd test_static;  // products of the columns there with the statics [columns x statics]
+    Eigen::MatrixXd solved;   // prior-regularised statics' inverse times their products with the columns
+    Eigen::MatrixXd inverse;  // of the regularised statics
+    Grams gram;               // statics eliminated
+    Eigen::VectorXd right;    // likewise, with the reading
   };
   struct Whitened {
     Eigen::MatrixXd root;              // Cholesky factor of the noise
@@ -105,9 +103,9 @@ class HeldOutScores {
   };
   struct Drawn;
   struct Products;
-  std::vector<Drawn> draw(Eigen::Index draws, std::uint64_t seed) const;
-  void addGains(const Fold& fold, std::size_t explanation, const Eigen::MatrixXd& right,
-                const Eigen::MatrixXd& net, std::vector<double>& totals) const;
+  std::vector<Drawn> draw(Eigen::Index draws, std::uint64_t seed, std::vector<Eigen::MatrixXd>& test) const;
+  void addGains(std::size_t f, std::size_t explanation, const Eigen::MatrixXd& right,
+                const std::vector<Eigen::MatrixXd>& errors, std::vector<double>& totals) const;
   std::vector<double> likelihoods(std::size_t explanation, const Eigen::MatrixXd& right) const;
   void chooseColumns();
   void whiten(const CycleNoise& noise, const StaticModel& model);
