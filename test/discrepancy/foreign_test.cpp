@@ -7,7 +7,7 @@
 
 #include "dataset/recording_builder.h"
 #include "discrepancy/answer.h"
-#include "discrepancy/decide/pace.h"
+#include "discrepancy/decide/constancy.h"
 
 namespace fsr::discrepancy {
 namespace {
@@ -20,28 +20,42 @@ const std::string kTwoPaces =
   - cycles: {peak: 620000, rate: 12000, dwell_peak: 4, cycles: 3}
 )");
 
-// Wanted sizes of an effect at paces from 5 to 80 kPa/s: pace^-exponent, of each second cycle a little more.
-bool sameAtEachPace(double exponent, double more = 0.02) {
+// Whether sizes that an effect is wanted in are one size. They are those of ten cycles at paces from 5 to
+// 80 kPa/s, given the pace and the time from 0 to 1.
+template <typename Size>
+bool isOneSize(Size size) {
   Measured measured;
   Trace part(40), wanted(40);
   for (std::size_t c = 0; c < 10; ++c) {
-    const double pace = 5e3 * std::pow(2, static_cast<double>(c % 5));
+    const double pace = 5e3 * std::pow(2, static_cast<double>(c % 5)), time = static_cast<double>(c) / 9;
     measured.cycles.push_back({0, 4 * c, 4 * c + 4});
     measured.rate.insert(measured.rate.end(), {pace, -pace, pace, -pace});
+    measured.time.insert(measured.time.end(), 4, 1000 * time);
     const auto first = static_cast<Eigen::Index>(4 * c);
     part.segment(first, 4) << 1, -1, 1, -1;
-    wanted.segment(first, 4) = part.segment(first, 4) * (std::pow(pace, -exponent) * (c % 2 ? 1 + more : 1));
+    wanted.segment(first, 4) = part.segment(first, 4) * size(pace, time) * (c % 2 ? 1.02 : 1);
   }
-  return isSameAtEachPace(measured, part, wanted);
+  return isConstant(measured, part, wanted);
 }
 
-TEST(Pace, TellsADelayFromFriction) {
-  EXPECT_TRUE(sameAtEachPace(0));
-  EXPECT_TRUE(sameAtEachPace(0.3));
-  EXPECT_FALSE(sameAtEachPace(1));
-  EXPECT_FALSE(sameAtEachPace(-1));
-  EXPECT_TRUE(sameAtEachPace(0, 0.0)) << "of one size, exactly";
-  EXPECT_TRUE(sameAtEachPace(1, 50.0)) << "not certain";
+TEST(Constancy, TellsADelayFromFriction) {
+  const auto with = [](double exponent) {
+    return isOneSize([&](double pace, double) { return std::pow(pace, -exponent); });
+  };
+  EXPECT_TRUE(with(0));
+  EXPECT_TRUE(with(0.3));
+  EXPECT_FALSE(with(1));
+  EXPECT_FALSE(with(-1));
+  const auto scattered = [](double pace, double time) { return (std::lround(9 * time) % 2 ? 50 : 1) / pace; };
+  EXPECT_TRUE(isOneSize(scattered)) << "not certain";
+}
+
+TEST(Constancy, TellsADelayFromALagThatTurnsRound) {
+  const auto falling = [](double by) {
+    return isOneSize([&](double, double time) { return 1 - by * time; });
+  };
+  EXPECT_TRUE(falling(0.6));
+  EXPECT_FALSE(falling(2));
 }
 
 // A rig whose chamber is run in sines of these periods [s], one after the other. It feels `felt` of the time

@@ -196,13 +196,13 @@ struct EffectInfo {
   bool stochastic = false;  ///< draws new random numbers at each scan
   bool by_chance =
       false;  ///< its course is random, or its phase unknown: no simulation repeats that of a recording
-  bool slow = false;               ///< changes from cycle to cycle, hardly within a cycle
-  bool any_course = false;         ///< slow, and its form can imitate any other slow effect
-  bool same_at_each_pace = false;  ///< of one size at each pace, else it is another effect
-  bool mixture = false;            ///< sums of it with several shapes are forms of the same effect
-  bool with_bending = false;       ///< belongs to the simplest simulation of a bent sensor
-  std::string if_negative = {};    ///< sentence where a strength below zero was found
-  std::string also_called = {};    ///< name in data sheets, where it could be confused with another effect
+  bool slow = false;             ///< changes from cycle to cycle, hardly within a cycle
+  bool any_course = false;       ///< slow, and its form can imitate any other slow effect
+  bool constant = false;         ///< of one size, whenever and at each pace, else it is another effect
+  bool mixture = false;          ///< sums of it with several shapes are forms of the same effect
+  bool with_bending = false;     ///< belongs to the simplest simulation of a bent sensor
+  std::string if_negative = {};  ///< sentence where a strength below zero was found
+  std::string also_called = {};  ///< name in data sheets, where it could be confused with another effect
 };
 
 /// The parameter of that name; throws std::out_of_range.

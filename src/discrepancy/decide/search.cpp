@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "discrepancy/decide/pace.h"
+#include "discrepancy/decide/constancy.h"
 #include "discrepancy/fit/signatures.h"
 #include "discrepancy/fit/static_fit.h"
 #include "discrepancy/samples/available_evidence.h"
@@ -409,15 +409,16 @@ Trace Search::withoutEnabled(const Trace& trace, const Trace& part) const {
   return trace - columns * sizes;
 }
 
-// What shifts slow cycles by more time than fast ones is a phase and no delay.
+// What shifts slow cycles by more time than fast ones is a phase and no delay. Nor is what shifts early ones
+// otherwise than late ones.
 bool Search::isPhase(std::size_t e) {
   const Fitted& fit = fitted(appraisal_.all[e]);
   const Forward forward(measured_, common_, fit_, base_);
   for (std::size_t k = 0; k < fit.refined.effects.size(); ++k) {
-    if (!measured_.info(fit.refined.effects[k].id).same_at_each_pace) continue;
+    if (!measured_.info(fit.refined.effects[k].id).constant) continue;
     const Trace part = forward.explained({fit.refined.effects[k]}, {fit.bent_only[k]});
     const Trace wanted = fit_.residual(common_.all) - (fit.refined.trace - part);
-    if (!isSameAtEachPace(measured_, part, withoutEnabled(wanted, part))) return true;
+    if (!isConstant(measured_, part, withoutEnabled(wanted, part))) return true;
   }
   return false;
 }

@@ -55,7 +55,7 @@ EffectEntry timeSkew() {
   info.depends_on = {Covariate::kPressureRate, Covariate::kDirection, Covariate::kClockTime};
   info.needs = {Evidence::kTwoRampRates};
   info.collinear = {"hysteresis", "creep", "scan_skew", "relaxation"};
-  info.same_at_each_pace = true;
+  info.constant = true;
   info.if_negative =
       "The matrix is ahead of the chamber pressure: check the clocks. A viscous damper reads alike.";
   info.experiment = Experiment::kTwoRampRates;

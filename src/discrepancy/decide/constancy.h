@@ -5,13 +5,14 @@
 
 namespace fsr::discrepancy {
 
-/// Whether the fit cycles want an effect in one size, at whatever pace v [Pa/s] they were run. `part`: what
-/// the effect adds to the common trace; `wanted`: what it should explain.
+/// Whether the fit cycles want an effect in one size, at whatever pace v [Pa/s] and whenever they were run.
+/// `part`: what the effect adds to the common trace; `wanted`: what it should explain.
 ///
 /// The size of a delay goes with v^0. Friction shifts the reading by a pressure and not by a time, so a delay
 /// that imitates it goes with 1/v. Between them lies v^-0.5. The exponent is the slope of the cycles' sizes
 /// over ln v by weighted least squares, with its 95 % interval after H. White, Econometrica 48, 1980, 817.
-/// True where the paces do not differ.
-bool isSameAtEachPace(const Measured& measured, const Trace& part, const Trace& wanted);
+/// Over the clock time t the size must not change by more than its mean from the first cycle to the last.
+/// True where the paces do not differ and the cycles are fewer than 3.
+bool isConstant(const Measured& measured, const Trace& part, const Trace& wanted);
 
 }  // namespace fsr::discrepancy
