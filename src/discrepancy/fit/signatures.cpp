@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "dataset/count_readers.h"
+#include "fsr_pressure_map/settings/input_error.h"
 #include "matrix/for_each_taxel.h"
 #include "simulation/sensitivity.h"
 
@@ -244,11 +245,6 @@ std::vector<Signature> planned(const simulation::SimulationSettings& settings,
   return plan;
 }
 
-bool possible(const simulation::EffectValues& values) {
-  const auto fastest = values.find("fastest"), slowest = values.find("slowest");
-  return fastest == values.end() || slowest == values.end() || fastest->second < slowest->second;
-}
-
 }  // namespace
 
 matrix::Surface oneTaxel(const matrix::Surface& surface) {
@@ -333,9 +329,12 @@ std::vector<Signature> signatures(const Measured& measured, const StaticFit& fit
   std::vector<std::vector<Signature>> of_derivative(plan.size());
   matrix::forEachTaxel(plan.size(), threads, [&](std::size_t k) {
     const Signature& one = plan[k];
-    if (!possible(one.values)) return;
-    const DrivenSignals derivative =
-        drivenDerivative(measured, settings, one.id, one.strength, one.values, one.state_kept);
+    DrivenSignals derivative;
+    try {
+      derivative = drivenDerivative(measured, settings, one.id, one.strength, one.values, one.state_kept);
+    } catch (const settings::InputError&) {
+      return;  // the effect refuses this combination of shapes
+    }
     const simulation::EffectInfo& info = measured.info(one.id);
     for (const double amplitude : amplitudes(info, simulation::parameter(info, one.strength))) {
       Trace trace = throughCurve(measured, fit, derivative, info.stage, amplitude);
