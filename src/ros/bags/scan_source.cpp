@@ -31,6 +31,7 @@
 #include "ros/bags/loaded_calibration.h"
 #include "ros/bags/message_events.h"
 #include "ros/bags/sensor_topics.h"
+#include "ros/messages/driver_messages.h"
 #include "ros/messages/message_reader.h"
 #include "ros/messages/surface_message.h"
 
@@ -74,13 +75,6 @@ class ScanContext {
 
   const fsr_pressure_map::MatrixInfo& board() const { return board_; }
   const std::shared_ptr<const fsr::matrix::Surface>& firstSurface() const { return first_surface_; }
-  // Layout with the pitch in matrix_info, or the default pitch without one.
-  fsr::matrix::Layout layout(fsr::matrix::MatrixSize size) const {
-    fsr::matrix::Layout layout{size};
-    if (board_.pitch_x > 0) layout.pitch_x = board_.pitch_x;
-    if (board_.pitch_y > 0) layout.pitch_y = board_.pitch_y;
-    return layout;
-  }
 
   // Description of the recording, without its name and `maps`.
   fsr::exports::ExportSubject subject() const {
@@ -332,7 +326,7 @@ class Joiner {
   }
 
   void requireOneSize(fsr::exports::ScanRecord& scan, fsr::matrix::MatrixSize size) const {
-    if (scan.layout.size.taxels() == 0) scan.layout = context_.layout(size);
+    if (scan.layout.size.taxels() == 0) scan.layout = layoutOf(size, context_.board());
     if (scan.layout.size == size) return;
     throw fsr::settings::InputError("the scan of " + fsr::matrix::sizeText(scan.layout.size) + " taxels at " +
                                     std::to_string(scan.stamp_ns) + " ns has a map of " +

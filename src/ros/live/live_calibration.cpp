@@ -11,6 +11,7 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "ros/bags/resource_path.h"
 #include "ros/live/parameters.h"
+#include "ros/messages/driver_messages.h"
 #include "ros/messages/surface_message.h"
 #include "settings/replace_file.h"
 #include "settings/settings.h"
@@ -91,14 +92,6 @@ namespace {
 constexpr double kComplaintPeriod = 10.0;  // [s]
 
 using Lock = std::lock_guard<std::mutex>;
-
-// Layout with the pitch in matrix_info, or the default pitch without one.
-fsr::matrix::Layout layoutOf(fsr::matrix::MatrixSize size, const fsr_pressure_map::MatrixInfo& board) {
-  fsr::matrix::Layout layout{size};
-  if (board.pitch_x > 0) layout.pitch_x = board.pitch_x;
-  if (board.pitch_y > 0) layout.pitch_y = board.pitch_y;
-  return layout;
-}
 
 }  // namespace
 

@@ -108,6 +108,13 @@ fsr_pressure_map::MatrixInfo matrixInfo(const Board& board, const DriverSettings
   return info;
 }
 
+fsr::matrix::Layout layoutOf(fsr::matrix::MatrixSize size, const fsr_pressure_map::MatrixInfo& board) {
+  fsr::matrix::Layout layout{size};
+  if (board.pitch_x > 0) layout.pitch_x = board.pitch_x;
+  if (board.pitch_y > 0) layout.pitch_y = board.pitch_y;
+  return layout;
+}
+
 std::string sameBoardSentence(const std::map<std::string, std::string>& serials) {
   for (auto first = serials.begin(); first != serials.end(); ++first) {
     const auto second = std::find_if(std::next(first), serials.end(),

@@ -94,6 +94,9 @@ fsr_pressure_map::Event triggerMessage(const fsr::protocol::TriggerPacket& trigg
 /// The stamp of the header is left 0.
 fsr_pressure_map::MatrixInfo matrixInfo(const Board& board, const DriverSettings& settings);
 
+/// Layout with the pitch in matrix_info, or the default pitch where it states none.
+fsr::matrix::Layout layoutOf(fsr::matrix::MatrixSize size, const fsr_pressure_map::MatrixInfo& board);
+
 /// A sentence that names two sheets whose boards have one serial number, and says what would be right; empty
 /// = there are none. `serials`: serial number by the namespace of each sheet; empty = unknown.
 std::string sameBoardSentence(const std::map<std::string, std::string>& serials);

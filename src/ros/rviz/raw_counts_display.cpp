@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "ros/messages/driver_messages.h"
 #include "ros/rviz/sheet_display.h"
 #endif
 
@@ -15,17 +16,6 @@ namespace fsr_rviz {
 namespace {
 
 constexpr double kUsualFullScale = 4095;  // until the first scan
-
-fsr::matrix::Layout layoutOf(const fsr_pressure_map::MatrixFrame& scan,
-                             const fsr_pressure_map::MatrixInfoConstPtr& info) {
-  fsr::matrix::Layout layout;
-  layout.size = {scan.rows, scan.columns};
-  if (info && info->pitch_x > 0 && info->pitch_y > 0) {
-    layout.pitch_x = double(info->pitch_x);
-    layout.pitch_y = double(info->pitch_y);
-  }
-  return layout;
-}
 
 }  // namespace
 
@@ -51,7 +41,7 @@ class RawCountsDisplay : public SheetDisplay {
   }
 
   void paint(SheetPicture& picture) override {
-    const fsr::matrix::Layout layout = layoutOf(*last_, info_);
+    const fsr::matrix::Layout layout = fsr_ros::layoutOf({last_->rows, last_->columns}, info_);
     const std::size_t taxels = layout.size.taxels();
     if (taxels == 0 || last_->counts.size() != taxels) {
       throw fsr::settings::InputError("a scan of " + fsr::matrix::sizeText(layout.size) + " taxels has " +
@@ -96,7 +86,7 @@ class RawCountsDisplay : public SheetDisplay {
     received(message->header);
   }
 
-  void onInfo(const fsr_pressure_map::MatrixInfoConstPtr& message) { info_ = message; }
+  void onInfo(const fsr_pressure_map::MatrixInfoConstPtr& message) { info_ = *message; }
 
   fsr::view::PressureScale scale() const {
     const double full_scale = last_ && last_->full_scale > 0 ? last_->full_scale : kUsualFullScale;
@@ -109,7 +99,7 @@ class RawCountsDisplay : public SheetDisplay {
 
   rviz::FloatProperty* high_;
   ros::Subscriber infos_;
-  fsr_pressure_map::MatrixInfoConstPtr info_;
+  fsr_pressure_map::MatrixInfo info_;
   fsr_pressure_map::MatrixFrameConstPtr last_;
   int full_scale_ = 0;  // full scale of the scan that is drawn [counts]
 };
