@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "matrix/for_each_taxel.h"
 #include "statistics/random_stream.h"
@@ -424,36 +425,36 @@ std::vector<Index> HeldOutScores::placesOf(const Form& form) const {
   return places;
 }
 
+// The form of an explanation with the largest marginal likelihood in the cycles that a fold leaves.
+std::pair<FormFit, std::size_t> HeldOutScores::bestForm(const Fold& fold, std::size_t explanation) const {
+  const std::vector<Form>& forms = explanations_[explanation].forms;
+  std::pair<FormFit, std::size_t> best;
+  for (std::size_t i = 0; i < forms.size(); ++i) {
+    const FormFit fit = fitForm(fold.gram[first_form_[explanation] + i],
+                                rowsOf(fold.right, placesOf(forms[i])), forms[i].free);
+    if (i == 0 || fit.likelihood > best.first.likelihood) best = {fit, i};
+  }
+  return best;
+}
+
 void HeldOutScores::score() {
   for (std::size_t e = 0; e < explanations_.size(); ++e) {
-    const Explaining& explanation = explanations_[e];
-    const std::size_t first = first_form_[e];
     HeldOutScore score;
     score.nats.assign(cycles_.size(), 0.0);
     for (std::size_t f = 0; f < fold_number_; ++f) {
-      FormFit best;
-      std::size_t at = 0;
-      for (std::size_t i = 0; i < explanation.forms.size(); ++i) {
-        const Form& one = explanation.forms[i];
-        const FormFit fit =
-            fitForm(folds_[f].gram[first + i], rowsOf(folds_[f].right, placesOf(one)), one.free);
-        if (i == 0 || fit.likelihood > best.likelihood) best = fit, at = i;
-      }
-      if (best.variance == 0) continue;
-      const FormPrediction prediction(folds_[f].gram[first + at], best);
+      const auto best = bestForm(folds_[f], e);
+      if (best.first.variance == 0) continue;
+      const FormPrediction prediction(folds_[f].gram[first_form_[e] + best.second], best.first);
+      const Form& form = explanations_[e].forms[best.second];
       for (std::size_t c = 0; c < cycles_.size(); ++c) {
         const Whitened& w = cycles_[c];
-        if (w.fold != f || w.covered.empty()) continue;
-        score.nats[c] = prediction.nats(columnsOf(w.test_net, explanation.forms[at]), w.test_error);
+        if (w.fold == f && !w.covered.empty())
+          score.nats[c] = prediction.nats(columnsOf(w.test_net, form), w.test_error);
       }
     }
-    for (std::size_t i = 0; i < explanation.forms.size(); ++i) {
-      const Form& one = explanation.forms[i];
-      const FormFit fit = fitForm(all_.gram[first + i], rowsOf(all_.right, placesOf(one)), one.free);
-      if (i == 0 || fit.likelihood > score.fit.likelihood) score.fit = fit, score.form = i;
-    }
+    std::tie(score.fit, score.form) = bestForm(all_, e);
     for (const double nats : score.nats) score.total += nats;
-    if (explanation.by_chance) score.total = score.fit.likelihood;
+    if (explanations_[e].by_chance) score.total = score.fit.likelihood;
     scores_.push_back(score);
   }
 }

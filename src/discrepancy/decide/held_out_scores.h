@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "discrepancy/decide/candidates.h"
@@ -114,6 +115,7 @@ class HeldOutScores {
   static void whitenTest(Whitened& cycle, const Eigen::MatrixXd& inverse);
   std::vector<Products> productsOfFolds() const;
   void solveFolds();
+  std::pair<FormFit, std::size_t> bestForm(const Fold& fold, std::size_t explanation) const;
   void score();
   Eigen::Index columnOf(const Form& form, std::size_t k) const {
     return place_[static_cast<std::size_t>(form.columns[k] + (form.bent_only ? design_.columns : 0))];
