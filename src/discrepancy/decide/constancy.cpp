@@ -1,5 +1,6 @@
 #include "discrepancy/decide/constancy.h"
 
+#include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
@@ -25,10 +26,8 @@ class Sizes {
   Eigen::Index number() const { return size_.size(); }
   const Eigen::ArrayXd& pace() const { return pace_; }
   const Eigen::ArrayXd& time() const { return time_; }
-  // Standard deviation of a variable over the cycles.
-  double spread(const Eigen::ArrayXd& over) const {
-    return std::sqrt((weight_ * centred(over).square()).sum());
-  }
+  // Variance of a variable over the cycles.
+  double variance(const Eigen::ArrayXd& over) const { return (weight_ * centred(over).square()).sum(); }
   // Whether the sizes change over a variable: by more than `permitted` of their mean in each unit of it, and
   // beyond the interval.
   bool change(const Eigen::ArrayXd& over, double permitted) const;
@@ -65,11 +64,11 @@ Sizes::Sizes(const Measured& measured, const Trace& part, const Trace& wanted) {
 bool Sizes::change(const Eigen::ArrayXd& over, double permitted) const {
   constexpr double kTwoSided = 0.975;
   const Eigen::ArrayXd x = centred(over);
-  const double mean = (weight_ * size_).sum(), spread = (weight_ * x.square()).sum();
-  const double slope = (weight_ * x * size_).sum() / spread;
-  const double variance = (weight_ * x * (size_ - mean - slope * x) / spread).square().sum();
+  const double mean = (weight_ * size_).sum(), of_x = variance(over);
+  const double slope = (weight_ * x * size_).sum() / of_x;
+  const double of_slope = (weight_ * x * (size_ - mean - slope * x) / of_x).square().sum();
   const boost::math::students_t t(static_cast<double>(number()) - 2);
-  const double half_interval = boost::math::quantile(t, kTwoSided) * std::sqrt(variance);
+  const double half_interval = boost::math::quantile(t, kTwoSided) * std::sqrt(of_slope);
   return std::abs(slope) > std::max(half_interval, permitted * std::abs(mean));
 }
 
@@ -80,7 +79,7 @@ bool isConstant(const Measured& measured, const Trace& part, const Trace& wanted
   constexpr double kTwoPaces = 1.5;  // their ratio
   const Sizes sizes(measured, part, wanted);
   if (sizes.number() < 3) return true;
-  const bool two_paces = sizes.spread(sizes.pace()) > std::log(kTwoPaces) / 2;
+  const bool two_paces = sizes.variance(sizes.pace()) > std::pow(std::log(kTwoPaces) / 2, 2);
   return !(two_paces && sizes.change(sizes.pace(), kHalfway)) && !sizes.change(sizes.time(), kOnce);
 }
 

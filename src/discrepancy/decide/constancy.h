@@ -12,7 +12,7 @@ namespace fsr::discrepancy {
 /// that imitates it goes with 1/v. Between them lies v^-0.5. The exponent is the slope of the cycles' sizes
 /// over ln v by weighted least squares, with its 95 % interval after H. White, Econometrica 48, 1980, 817.
 /// Over the clock time t the size must not change by more than its mean from the first cycle to the last.
-/// True where the paces do not differ and the cycles are fewer than 3.
+/// Paces that do not differ tell nothing; fewer than 3 cycles are taken for constant.
 bool isConstant(const Measured& measured, const Trace& part, const Trace& wanted);
 
 }  // namespace fsr::discrepancy
