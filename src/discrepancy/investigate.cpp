@@ -26,8 +26,7 @@ namespace fsr::discrepancy {
 
 namespace {
 
-constexpr double kFarLevel = 1.8;  // of the highest reading: a higher saturation level has no influence
-constexpr int kMostRounds = 4;     // of repeat()
+constexpr int kMostRounds = 4;  // of repeat()
 
 using Ids = std::vector<std::string>;
 
@@ -243,15 +242,12 @@ void Investigation::lookAtStaticCurves() {
   const bool else_found =
       !detections_.empty() || decision_.verdict != Verdict::kNone || !measured_.gain.empty();
   if (!isMisfit(misfit_, else_found) || misfit_.at_map < decision_.least_gap) return;
-  if (isSaturation(misfit_, measured_)) {
-    const Detection saturation = saturationOf(misfit_, measured_, *fit_, report_.base);
-    const double level = saturation.enable.front().values.at("level") / measured_.full_scale;
-    if (level > kFarLevel * fit_->curve().maxCoeff()) return;
-    if (sought(simulation::Detector::kSaturation)) detections_.push_back(saturation);
-    unknown_statics_ = !sought(simulation::Detector::kSaturation);
-  } else {
-    unknown_statics_ = decision_.verdict == Verdict::kNone && detections_.empty();
-  }
+  // Beside something unknown a misfit has no name: it may be the same thing.
+  const bool saturates = isSaturation(misfit_) && decision_.verdict != Verdict::kUnknown;
+  if (saturates && sought(simulation::Detector::kSaturation))
+    detections_.push_back(saturationOf(misfit_, measured_, *fit_));
+  else
+    unknown_statics_ = saturates || (decision_.verdict == Verdict::kNone && detections_.empty());
 }
 
 // A random course stands beside what the detectors found. It is common to all surfaces, because it is one of

@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include "discrepancy/decide/refine.h"
-#include "discrepancy/fit/parameter_fit.h"
 #include "simulation/effects/effect_library.h"
 #include "statistics/random_stream.h"
 #include "statistics/samples.h"
@@ -312,7 +311,7 @@ namespace {
 constexpr double kFaultZ = 99;  // the result of this detector counts as certain
 constexpr double kMisfitBeside =
     0.08;  // of the readings' squared error, where time courses were found, which bend the curves
-constexpr double kByCode = 0.4;        // share of a misfit that one function of the reading explains
+constexpr double kByLimit = 0.9;       // share of a misfit that one limit of all surfaces explains
 constexpr double kHighReadings = 0.6;  // of the highest reading: saturation is visible above it
 
 Detection plain(const simulation::EffectInfo& info, double z) {
@@ -429,19 +428,16 @@ Detection detectionOf(const RandomFinding& finding, const simulation::EffectInfo
   return detection;
 }
 
-Detection saturationOf(const StaticMisfit& misfit, const Measured& measured, const StaticFit& fit,
-                       const simulation::SimulationSettings& base) {
+Detection saturationOf(const StaticMisfit& misfit, const Measured& measured, const StaticFit& fit) {
   Detection detection = plain(simulation::Detector::kSaturation, kFaultZ);
-  simulation::EnabledEffect effect = usualValues(detection.effect.id);
-  const double highest = fit.curve().maxCoeff();
-  effect.values["level"] = 1.1 * highest * measured.full_scale;
-  effect.values["sharpness"] = 4;
-  const simulation::SimulationSettings fitted = fitBase(measured, fit, withEffect(base, effect));
-  detection.enable = {*fitted.effect(effect.id)};
+  detection.enable = {usualValues(detection.effect.id)};
+  detection.enable.front().values["level"] = misfit.level * measured.full_scale;
+  detection.enable.front().values["sharpness"] = misfit.sharpness;
   tellParameters(detection, {"level", "sharpness"});
+  const double high = kHighReadings * fit.curve().maxCoeff();
   detection.where.pressure = {INFINITY, 0};
   for (std::size_t i = 0; i < measured.samples(); ++i) {
-    if (fit.curve()[static_cast<Eigen::Index>(i)] < kHighReadings * highest) continue;
+    if (fit.curve()[static_cast<Eigen::Index>(i)] < high) continue;
     detection.where.pressure.low = std::min(detection.where.pressure.low, measured.pressure[i]);
     detection.where.pressure.high = std::max(detection.where.pressure.high, measured.pressure[i]);
   }
@@ -453,8 +449,8 @@ bool isMisfit(const StaticMisfit& misfit, bool something_else_found) {
   return misfit.share >= (something_else_found ? kMisfitBeside : thresholds::kLeastShareOfError);
 }
 
-bool isSaturation(const StaticMisfit& misfit, const Measured& measured) {
-  return misfit.by_code >= kByCode && misfit.conditions.size() + 1 >= measured.classes.size();
+bool isSaturation(const StaticMisfit& misfit) {
+  return misfit.by_limit >= kByLimit;
 }
 
 }  // namespace fsr::discrepancy

@@ -4,8 +4,9 @@
 #include <vector>
 
 #include "discrepancy/decide/decision.h"
+#include "discrepancy/fit/mount_fields.h"
 #include "discrepancy/fit/static_fit.h"
-#include "discrepancy/fit/static_layer.h"
+#include "discrepancy/fit/static_misfit.h"
 #include "discrepancy/fit/taxel_fit.h"
 #include "discrepancy/samples/faults.h"
 #include "discrepancy/samples/measured.h"
@@ -59,13 +60,12 @@ Detection detectionOf(const Repositioning& repositioning, double square);
 /// `amplitude`.
 Detection detectionOf(const RandomFinding& finding, const simulation::EffectInfo& info,
                       const WhereItShows& where, double amplitude);
-/// Saturation. Its level is fitted to the static curves.
-Detection saturationOf(const StaticMisfit& misfit, const Measured& measured, const StaticFit& fit,
-                       const simulation::SimulationSettings& base);
+/// Saturation, with the limit that the static curves of all surfaces have in common.
+Detection saturationOf(const StaticMisfit& misfit, const Measured& measured, const StaticFit& fit);
 
-/// isMisfit(): whether the misfit of the static curves is more than chance. isSaturation(): whether the
-/// misfit is a function of the code.
+/// isMisfit(): whether the misfit of the static curves is more than chance. isSaturation(): whether a limit
+/// of the readings that all surfaces have in common explains it.
 bool isMisfit(const StaticMisfit& misfit, bool something_else_found);
-bool isSaturation(const StaticMisfit& misfit, const Measured& measured);
+bool isSaturation(const StaticMisfit& misfit);
 
 }  // namespace fsr::discrepancy

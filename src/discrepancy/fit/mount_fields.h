@@ -22,18 +22,4 @@ struct Repositioning {
 Repositioning findRepositioning(const Measured& measured, const StaticFit& fit, const TaxelFit& taxels,
                                 const Trace& explained, const Eigen::MatrixXd& mask);
 
-/// Misfit that remains after the curves of all surfaces have been mapped onto the first surface's curve by
-/// gain and preload.
-struct StaticMisfit {
-  double share = 0;                     ///< share of the readings' squared error
-  double rms = 0;                       ///< [share of full scale]
-  double at_map = 0;                    ///< rms of the misfit divided by the slope of the curves [Pa]
-  double by_code = 0;                   ///< share of the misfit that one function of the reading explains
-  Interval pressure;                    ///< where the misfit shows [Pa]
-  std::vector<std::string> conditions;  ///< where the misfit shows; empty = all
-};
-/// Measures this misfit. Differences that may be due to chance count as 0.
-StaticMisfit findStaticMisfit(const Measured& measured, const StaticFit& fit, const Trace& common,
-                              double square);
-
 }  // namespace fsr::discrepancy
