@@ -358,21 +358,25 @@ void Investigation::startAgain() {
 
 // Noise that no sound sheet has is itself what is missing: a gain that scatters from cycle to cycle by more
 // than data sheets give for a single part (Interlink FSR 400: 2 %), or a reading that wanders over the whole
-// range.
+// range, or within the cycles by clearly more than the least gap, and more than all other noise.
 void Investigation::tellScatter() {
-  constexpr double kRepeatability = 0.02;
+  constexpr double kRepeatability = 0.02, kClearly = 2, kMost = 0.5;
   if (report_.verdict != Verdict::kNone) return;
   for (const Scatter& one : report_.scatter) {
     const bool gain = one.part == "cycle_gain";
-    if (!(gain ? one.interval.low > kRepeatability : one.at_map >= measured_.range())) continue;
+    const double least = one.size > 0 ? one.at_map * one.interval.low / one.size : 0;  // [Pa]
+    const bool wanders =
+        one.at_map >= measured_.range() ||
+        (one.part == "wandering" && one.of_noise > kMost && least > kClearly * report_.least_gap);
+    if (!(gain ? one.interval.low > kRepeatability : wanders)) continue;
     report_.verdict = Verdict::kUnknown;
     report_.at_map = one.at_map;
     report_.depends_on = {
         simulation::name(gain ? simulation::Covariate::kCycle : simulation::Covariate::kClockTime)};
-    report_.limitations.push_back(gain ? "The gain changes from cycle to cycle by " +
-                                             settings::percentText(one.size, 1) +
-                                             "; data sheets give 2 % for a single part."
-                                       : "The reading wanders by more than the range of the pressure.");
+    report_.limitations.push_back(
+        gain ? "The gain changes from cycle to cycle by " + settings::percentText(one.size, 1) +
+                   "; data sheets give 2 % for a single part."
+             : "The reading wanders by " + settings::roundedText(1e-3 * one.at_map, 2) + " kPa at the map.");
     return;
   }
 }

@@ -112,6 +112,18 @@ TEST(Foreign, ScatterOfTheGainBeyondThatOfAnyPartIsUnknown) {
   EXPECT_EQ(report.depends_on, std::vector<std::string>{"cycle"});
 }
 
+// In each cycle the contact jumps at another pressure, by 3 % of full scale.
+TEST(Foreign, WanderWithinTheCyclesIsUnknown) {
+  const double jumps[] = {0.35, 0.62, 0.48, 0.29, 0.7, 0.41, 0.55, 0.33, 0.66, 0.5, 0.38};
+  const DiscrepancyReport report =
+      answerTo(planted::problemReading(kTwoPaces, [&](const planted::Changed& now) {
+        const double cycle = std::floor(now.loads), share = 1 - std::abs(1 - 2 * (now.loads - cycle));
+        const double jump = jumps[(static_cast<std::size_t>(cycle) + 3 * now.recording) % 11];
+        return now.count + 123 / (1 + std::exp((jump - share) / 0.03));
+      }));
+  EXPECT_EQ(report.verdict, Verdict::kUnknown) << report.sentence;
+}
+
 // Each change of the load adds to the reading, up or down alike, and what it added fades over 20 s.
 TEST(Foreign, DecayAfterEachMotionHasNoName) {
   double fading = 0, before = 0;
