@@ -9,7 +9,7 @@
 namespace fsr::discrepancy {
 namespace {
 
-// The answer where a count is read as `limited(count, scan)`.
+// The answer where `limited` gives each count.
 template <typename Limited>
 DiscrepancyReport limitedRig(Limited limited) {
   return answerTo(planted::problemReading(planted::kOneSpeed, limited));

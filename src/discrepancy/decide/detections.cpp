@@ -431,7 +431,7 @@ Detection detectionOf(const RandomFinding& finding, const simulation::EffectInfo
 Detection saturationOf(const StaticMisfit& misfit, const Measured& measured, const StaticFit& fit) {
   Detection detection = plain(simulation::Detector::kSaturation, kFaultZ);
   detection.enable = {usualValues(detection.effect.id)};
-  detection.enable.front().values["level"] = misfit.level * measured.full_scale;
+  detection.enable.front().values["level"] = misfit.level;
   detection.enable.front().values["sharpness"] = misfit.sharpness;
   tellParameters(detection, {"level", "sharpness"});
   const double high = kHighReadings * fit.curve().maxCoeff();

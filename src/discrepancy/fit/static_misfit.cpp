@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "discrepancy/fit/parameter_fit.h"
+#include "simulation/effects/effect_library.h"
 #include "statistics/signed_least_squares.h"
 
 namespace fsr::discrepancy {
@@ -22,7 +23,7 @@ constexpr int kPasses = 4;                // of a limit's fit, each with the slo
 
 double interpolate(const Eigen::VectorXd& values, double low, double step, double at) {
   const double place = (at - low) / step;
-  const auto i = std::clamp<Eigen::Index>(static_cast<Eigen::Index>(std::floor(place)), 0, values.size() - 2);
+  const auto i = std::clamp<Index>(static_cast<Index>(std::floor(place)), 0, values.size() - 2);
   const double share = place - static_cast<double>(i);
   return values[i] + share * (values[i + 1] - values[i]);
 }
@@ -184,20 +185,19 @@ Residuals errorOf(const Mapping& mapping) {
 // are too few samples.
 Eigen::MatrixXd chanceOf(const Measured& measured, const StaticFit& fit, const Trace& common, double low,
                          double step) {
-  const auto classes = static_cast<Eigen::Index>(measured.classes.size());
-  const auto points = static_cast<Eigen::Index>(kPoints);
-  Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(points, classes), number = squares;
+  const auto classes = static_cast<Index>(measured.classes.size());
+  Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(kPoints, classes), number = squares;
   const Trace left = fit.residual(common);
   for (std::size_t i = 0; i < measured.samples(); ++i) {
-    const auto k = static_cast<Eigen::Index>(std::lround((measured.loads()[i] - low) / step));
-    const auto c = static_cast<Eigen::Index>(measured.classOf(i));
-    if (k < 0 || k >= points || !fit.isFitted(i)) continue;
-    squares(k, c) += std::pow(left[static_cast<Eigen::Index>(i)], 2);
+    const auto k = static_cast<Index>(std::lround((measured.loads()[i] - low) / step));
+    const auto c = static_cast<Index>(measured.classOf(i));
+    if (k < 0 || k >= kPoints || !fit.isFitted(i)) continue;
+    squares(k, c) += std::pow(left[static_cast<Index>(i)], 2);
     number(k, c) += 1;
   }
-  Eigen::MatrixXd chance(points, classes);
-  for (Eigen::Index c = 0; c < classes; ++c) {
-    for (Eigen::Index k = 0; k < points; ++k) {
+  Eigen::MatrixXd chance(kPoints, classes);
+  for (Index c = 0; c < classes; ++c) {
+    for (Index k = 0; k < kPoints; ++k) {
       const double n = number(k, c);
       chance(k, c) = n < kFewSamples ? INFINITY : kCorrelatedSamples * squares(k, c) / (n * n);
     }
@@ -209,12 +209,12 @@ Eigen::MatrixXd chanceOf(const Measured& measured, const StaticFit& fit, const T
 // reading tells nothing of the pressure.
 double atMap(const Eigen::MatrixXd& misfit, const Eigen::MatrixXd& curves, double step) {
   constexpr double kLeastSlope = 0.05;  // of the mean slope
-  const Eigen::Index last = curves.rows() - 1;
+  const Index last = curves.rows() - 1;
   double square = 0, number = 0;
-  for (Eigen::Index c = 0; c < curves.cols(); ++c) {
+  for (Index c = 0; c < curves.cols(); ++c) {
     const double mean = (curves(last, c) - curves(0, c)) / (static_cast<double>(last) * step);
-    for (Eigen::Index k = 0; k <= last; ++k) {
-      const Eigen::Index a = std::max<Eigen::Index>(0, k - 1), b = std::min(last, k + 1);
+    for (Index k = 0; k <= last; ++k) {
+      const Index a = std::max<Index>(0, k - 1), b = std::min(last, k + 1);
       const double slope = (curves(b, c) - curves(a, c)) / (static_cast<double>(b - a) * step);
       if (slope < kLeastSlope * mean || !(slope > 0)) continue;
       square += std::pow(misfit(k, c) / slope, 2);
@@ -282,23 +282,29 @@ double highestReading(const Measured& measured) {
   return highest;
 }
 
-// The parameters of the effect `saturation`, x / (1 + (x / level)^q)^(1 / q), that come nearest to a limit.
-// No taxel reads more than the level, `above`.
-void tellLimit(const Limit& limit, double above, StaticMisfit& misfit) {
+// The parameters with which the simulation's effect comes nearest to a limit. No taxel reads more than the
+// level, `above` [share of full scale].
+void tellLimit(const Limit& limit, double above, double full_scale, StaticMisfit& misfit) {
+  const simulation::EffectEntry& saturation =
+      *simulation::findEffect(simulation::foundBy(simulation::Detector::kSaturation).id);
   const double highest = 2 * limit.knots[0];
-  const auto levelAt = [&](const std::vector<double>& at) { return above * (1.02 + std::exp(at[0])); };
+  const Eigen::VectorXd readings = Eigen::VectorXd::LinSpaced(kPoints, highest / kPoints, highest);
+  std::vector<double> unlimited;  // [counts]
+  for (const double reading : readings) unlimited.push_back(full_scale * limit.without(reading));
+  const auto levelAt = [&](const std::vector<double>& at) {
+    return full_scale * above * (1.02 + std::exp(at[0]));
+  };
+  const auto sharpnessAt = [](const std::vector<double>& at) { return 1 + std::exp(at[1]); };
   const auto error = [&](const std::vector<double>& at) -> std::optional<Eigen::VectorXd> {
-    const double level = levelAt(at), q = 1 + std::exp(at[1]);
-    Eigen::VectorXd left(kPoints);
-    for (Index i = 0; i < kPoints; ++i) {
-      const double reading = highest * static_cast<double>(i + 1) / kPoints, x = limit.without(reading);
-      left[i] = x * std::pow(1 + std::pow(x / level, q), -1 / q) - reading;
-    }
-    return left;
+    simulation::TaxelSignals signals;
+    signals.reading = unlimited;
+    saturation.make({{"level", levelAt(at)}, {"sharpness", sharpnessAt(at)}}, {})->apply({}, signals);
+    const Eigen::Map<const Eigen::VectorXd> limited(signals.reading.data(), kPoints);
+    return Eigen::VectorXd(limited / full_scale - readings);
   };
   const std::vector<double> at = bestFrom(error, {{-3, 1}, {-3, 2}, {-1, 1}, {-1, 2}});
   misfit.level = levelAt(at);
-  misfit.sharpness = 1 + std::exp(at[1]);
+  misfit.sharpness = sharpnessAt(at);
 }
 
 }  // namespace
@@ -331,16 +337,16 @@ StaticMisfit findStaticMisfit(const Measured& measured, const StaticFit& fit, co
   const Limit limit = limitOf(curves, plain, beside_limit);
   takeOffChance(chance, beside_limit);
   result.by_limit = 1 - beside_limit.squaredNorm() / misfit.squaredNorm();
-  tellLimit(limit, highestReading(measured), result);
+  tellLimit(limit, highestReading(measured), measured.full_scale, result);
   const Eigen::VectorXd by_pressure = misfit.rowwise().norm();
   result.pressure = {INFINITY, 0};
-  for (Eigen::Index k = 0; k < by_pressure.size(); ++k) {
+  for (Index k = 0; k < by_pressure.size(); ++k) {
     if (by_pressure[k] < thresholds::kPressureShows * by_pressure.maxCoeff()) continue;
     result.pressure.low = std::min(result.pressure.low, low + step * static_cast<double>(k));
     result.pressure.high = std::max(result.pressure.high, low + step * static_cast<double>(k));
   }
   const Eigen::VectorXd by_class = misfit.colwise().norm();
-  for (Eigen::Index c = 0; c < by_class.size(); ++c) {
+  for (Index c = 0; c < by_class.size(); ++c) {
     if (by_class[c] >= thresholds::kShows * by_class.maxCoeff())
       result.conditions.push_back(measured.classes[static_cast<std::size_t>(c)].surface);
   }

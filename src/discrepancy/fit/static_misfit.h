@@ -14,8 +14,8 @@ struct StaticMisfit {
   /// Share of the misfit that is no misfit if the read-out limits high readings, on all surfaces alike. Any
   /// concave limit above half of the highest reading is fitted.
   double by_limit = 0;
-  double level = 0, sharpness = 0;  ///< of `saturation` nearest to this limit; level [share of full scale]
-  Interval pressure;                ///< where the misfit shows [Pa]
+  double level = 0, sharpness = 0;      ///< of the effect `saturation` nearest to this limit; level [counts]
+  Interval pressure;                    ///< where the misfit shows [Pa]
   std::vector<std::string> conditions;  ///< where the misfit shows; empty = all
 };
 /// Measures this misfit. Differences that may be due to chance count as 0. Below the least share of the error
