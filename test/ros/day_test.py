@@ -29,7 +29,8 @@ program:
 """
 # Steps: 1 mount, 2 to 5 conditioning, 6 rest, 7 to 11 cycles, 12 rest; 13 mount, 14 rest, 15 to 19 cycles, 20 rest.
 STEPS = {"peak_too_low": 8, "leak": 9, "board_unplugged": 16, "terminal_closed": 18}
-REMARKS = ("planned are 500 kPa", "leak", "no reading of the chamber pressure")  # a closed terminal cannot say anything
+# An unplugged board sends neither scans nor pressure; what is missed first is said. A closed terminal cannot say anything.
+REMARKS = ("planned are 500 kPa", "leak", "no reading of the chamber pressure|no scan came")
 SECTIONS = ("What was recorded", "Whether the bags are fit", "How good the calibration is", "What the sheet does that the simulation lacks",
             "What to record next", "Every step", "How to compute it again")
 
