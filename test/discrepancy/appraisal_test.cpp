@@ -148,6 +148,25 @@ TEST(Appraisal, AnEffectAddsToOneThatExplainsNothingByItself) {
   EXPECT_GT(addedToAnyForm(design, fitNull(design), both, 0, 1, DiscrepancyOptions()), 20);
 }
 
+// Noise with a gain of each cycle takes up a course that fades, so that it adds hardly anything to the
+// density.
+TEST(Appraisal, AGainThatFadesIsSeenBesideALoopOfAnyForm) {
+  std::vector<Explaining> all = {effect("a", kLoop), effect("c", kFading),
+                                 generic(Covariate::kDirection, {kLoop, kTurning})};
+  all[1].slow = true;
+  const auto beside = [&](double size, std::uint64_t seed) {
+    CycleDesign design = designWith(kMixed, kSize, seed);
+    drawn::addColumn(design, kFading, size);
+    return slowBeside(design, fitNull(design), all, 0, DiscrepancyOptions());
+  };
+  const std::vector<Beside> found = beside(kSize, 1);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found.front().explanation, 1u);
+  EXPECT_EQ(found.front().beginning.column, kFading);
+  EXPECT_NEAR(found.front().beginning.coefficient, kSize, 0.2 * kSize);
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) EXPECT_TRUE(beside(0, seed).empty()) << seed;
+}
+
 // Effect a closes most of the mixed column. Generic terms close all of it.
 TEST(Appraisal, SeesThatGenericTermsAreBetter) {
   const std::vector<Explaining> other = {effect("a", kLoop),

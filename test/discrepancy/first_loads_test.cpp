@@ -29,6 +29,22 @@ TEST(FirstLoads, OfWhichOnlyTheFirstReadsLowAreABreakIn) {
   EXPECT_EQ(report.credible_set.front(), Ids{"break_in"}) << report.sentence;
 }
 
+// Few cycles show it, so the delay alone predicts the readings hardly worse on average.
+TEST(FirstLoads, ThatReadLowAreSeenBesideADelay) {
+  const DiscrepancyReport report = investigate(
+      planted::problem(planted::kTwoSpeeds, "  time_skew: {delay: 1.0}\n  break_in: {change: -0.03}\n"));
+  ASSERT_FALSE(report.credible_set.empty()) << report.sentence;
+  EXPECT_EQ(report.credible_set.front(), (Ids{"time_skew", "break_in"})) << report.sentence;
+  EXPECT_LT(report.gap.after, 0.12 * report.gap.before) << "the delay alone leaves 14 %";
+}
+
+TEST(FirstLoads, ThatReadAsOthersAreNotSeenBesideADelay) {
+  const DiscrepancyReport report =
+      investigate(planted::problem(planted::kTwoSpeeds, "  time_skew: {delay: 1.0}\n"));
+  ASSERT_FALSE(report.credible_set.empty()) << report.sentence;
+  EXPECT_EQ(report.credible_set.front(), Ids{"time_skew"}) << report.sentence;
+}
+
 // Least chance of a slow effect whose signature is a gain that fades over three cycles. The gain of each
 // cycle of one mount is `size` times this signature, plus noise.
 double chanceOfFading(double size, std::uint64_t seed) {

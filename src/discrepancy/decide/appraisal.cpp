@@ -123,11 +123,7 @@ class Appraiser {
   }
 
   double addedToAnyForm(std::size_t one, std::size_t to) const {
-    Weighed first;
-    first.explaining = explanations_[to];
-    const std::vector<Explaining> alone = {first.explaining};
-    first.score = scored(null_.noise, model_, alone).scores().front();
-    first.noise = noiseUnder(first.explaining, first.score);
+    const Weighed first = underNull(to);
     const std::vector<HeldOutScore> plain = beyond(first, always(design_)).scores();
     const bool slow_to_fast = explanations_[one].slow && !first.explaining.slow;
     Chosen forms = always(design_);
@@ -140,7 +136,56 @@ class Appraiser {
     return beyond(first, forms).scores()[one].total;
   }
 
+  std::vector<Beside> slowBeside(std::size_t to) const {
+    Weighed first = underNull(to);
+    CycleDesign left = design_;
+    takeOff(first.explaining.forms[first.score.form], first.score.fit, left);
+    const std::vector<double> beside_it = chanceOfGains(left);
+    const Form any = fastForms();
+    if (!any.columns.empty()) takeOff(any, beyond(first, always(design_)).fitAll(any), left);
+    const std::vector<double> beside_any = chanceOfGains(left);
+    first.noise = withoutCycles();
+    const HeldOutScores still = beyond(first, always(design_));
+    std::vector<Beside> found;
+    for (std::size_t e = 0; e < explanations_.size(); ++e) {
+      if (std::max(beside_it[e], beside_any[e]) <= options_.level)
+        found.push_back({e, beginningOf(still, explanations_[e])});
+    }
+    return found;
+  }
+
  private:
+  Weighed underNull(std::size_t e) const {
+    Weighed one;
+    one.explaining = explanations_[e];
+    const std::vector<Explaining> alone = {one.explaining};
+    one.score = scored(null_.noise, model_, alone).scores().front();
+    one.noise = noiseUnder(one.explaining, one.score);
+    return one;
+  }
+
+  // All fast generic terms in one form.
+  Form fastForms() const {
+    Form all;
+    for (const Explaining& generic : explanations_) {
+      if (!generic.generic() || generic.slow) continue;
+      const Form& own = generic.forms.front();
+      all.columns.insert(all.columns.end(), own.columns.begin(), own.columns.end());
+      all.free.insert(all.free.end(), own.free.begin(), own.free.end());
+    }
+    return all;
+  }
+  static void takeOff(const Form& form, const FormFit& fit, CycleDesign& design) {
+    for (CycleBins& bins : design.cycles) {
+      if (form.bent_only && design.flat[bins.curvature_class]) continue;
+      for (std::size_t k = 0; k < form.columns.size(); ++k)
+        bins.reading -= fit.coefficients[static_cast<Index>(k)] * bins.columns.col(form.columns[k]);
+    }
+  }
+  std::vector<double> chanceOfGains(const CycleDesign& design) const {
+    return chanceByGains(design, explanations_, options_.null_draws, options_.seed);
+  }
+
   StaticModel modelWith(const Chosen& chosen) const {
     StaticModel model(design_, chosen.columns, chosen.variances, chosen.bent_only);
     model.stiffness = null_.stiffness;
@@ -205,8 +250,7 @@ class Appraiser {
 
   // The second test of whether anything is missing (Bonferroni).
   void testGains() {
-    const std::vector<double> by_gains =
-        chanceByGains(design_, explanations_, options_.null_draws, options_.seed);
+    const std::vector<double> by_gains = chanceOfGains(design_);
     for (std::size_t e = 0; e < by_gains.size(); ++e) {
       const double p = std::min(1.0, 2 * by_gains[e]);
       result_.all[e].p = std::min(result_.all[e].p, p);
@@ -496,7 +540,6 @@ class Appraiser {
     if (result_.credible.empty()) return;
     const HeldOutScores left = beyond(result_.all[result_.credible.front()], always(design_));
     result_.p_beyond = chanceBeyond(left);
-    if (result_.p_beyond > options_.level) return;
     for (std::size_t e = 0; e < explanations_.size(); ++e) {
       const double nats = left.scores()[e].total;
       result_.additions.push_back({nats, 2 * nats / closable_, {}});
@@ -556,6 +599,12 @@ double addedToAnyForm(const CycleDesign& design, const NullFit& null,
                       const std::vector<Explaining>& explanations, std::size_t one, std::size_t to,
                       const DiscrepancyOptions& options) {
   return Appraiser(design, null, explanations, options).addedToAnyForm(one, to);
+}
+
+std::vector<Beside> slowBeside(const CycleDesign& design, const NullFit& null,
+                               const std::vector<Explaining>& explanations, std::size_t to,
+                               const DiscrepancyOptions& options) {
+  return Appraiser(design, null, explanations, options).slowBeside(to);
 }
 
 Appraisal appraise(const CycleDesign& design, const NullFit& null,

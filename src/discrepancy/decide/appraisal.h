@@ -84,6 +84,18 @@ double addedToAnyForm(const CycleDesign& design, const NullFit& null,
                       const std::vector<Explaining>& explanations, std::size_t one, std::size_t to,
                       const DiscrepancyOptions& options);
 
+/// A slow effect beside another one, as an index of the explanations.
+struct Beside {
+  std::size_t explanation = 0;
+  SingleColumn beginning;
+};
+
+/// Slow effects that explain more of the gains of the cycles than chance does (see chanceByGains), both of
+/// what the fast effect `to` leaves of the readings and of what any form of it leaves.
+std::vector<Beside> slowBeside(const CycleDesign& design, const NullFit& null,
+                               const std::vector<Explaining>& explanations, std::size_t to,
+                               const DiscrepancyOptions& options);
+
 /// Weighs the explanations as `options` say. Pairs among them compete like single effects. The result does
 /// not depend on the number of threads.
 Appraisal appraise(const CycleDesign& design, const NullFit& null,

@@ -226,9 +226,9 @@ bool Search::isSlowBesideFast(std::size_t second) {
 
 // Effects that may be a second one beside the preferred effect, the one that adds most first. Each of the two
 // must add to any form of the other: the error of a form looks like a second effect.
-std::vector<std::size_t> Search::seconds() {
+std::vector<Search::Second> Search::seconds() {
   std::vector<std::size_t> chosen;
-  for (std::size_t e = 0; e < appraisal_.additions.size(); ++e) {
+  for (std::size_t e = 0; e < appraisal_.additions.size() && refuted(); ++e) {
     const Addition& adds = appraisal_.additions[e];
     const bool other = explanations_[e].single() && explanations_[e].ids != preferred().explaining.ids;
     const bool enough = adds.closes >= options_.second_adds || isSlowBesideFast(e);
@@ -246,7 +246,32 @@ std::vector<std::size_t> Search::seconds() {
     return std::min(added(e, first), added(first, e)) <= appraisal_.null_score;
   };
   chosen.erase(std::remove_if(chosen.begin(), chosen.end(), error_of_form), chosen.end());
-  return chosen;
+  std::vector<Second> seconds;
+  for (const std::size_t e : chosen) seconds.push_back({e, appraisal_.additions[e].beginning, false});
+  for (const Second& one : secondsByCycles()) {
+    const auto same = [&](const Second& second) { return second.effect == one.effect; };
+    seconds.erase(std::remove_if(seconds.begin(), seconds.end(), same), seconds.end());
+    seconds.push_back(one);
+  }
+  return seconds;
+}
+
+// Slow effects whose course follows from the cycles since the mounting, beside a fast effect that does not
+// resemble them. A slow effect of any course would take up the error of the fast one's form.
+std::vector<Search::Second> Search::secondsByCycles() {
+  const Weighed& first = preferred();
+  if (!first.explaining.single() || first.explaining.slow) return {};
+  const auto& like = measured_.info(first.explaining.ids.front()).collinear;
+  std::vector<Second> seconds;
+  for (const Beside& one : slowBeside(design_, null_, explanations_, appraisal_.credible.front(), options_)) {
+    const Explaining& slow = explanations_[one.explanation];
+    const bool by_cycles =
+        std::count(slow.covariates.begin(), slow.covariates.end(), simulation::Covariate::kCycle) > 0;
+    if (by_cycles && !std::count(like.begin(), like.end(), slow.ids.front()) &&
+        isSlowBesideFast(one.explanation))
+      seconds.push_back({one.explanation, one.beginning, true});
+  }
+  return seconds;
 }
 
 // What generic terms add to the preferred effect at most, among those that a second effect competes with.
@@ -259,32 +284,46 @@ double Search::genericBeside(bool slow_beside_fast) const {
   return most;
 }
 
+// A pair acts as the fit through the forward model says. One whose second effect was found in the gains also
+// acts by the columns of both, as its first effect alone does.
+std::vector<Form> Search::formsOf(const Weighed& first, const Second& second, Eigen::Index fitted) const {
+  const SingleColumn& more = second.beginning;
+  std::vector<Form> forms = {{{fitted}, {false}, false, true}};
+  Form both = first.explaining.forms[first.score.form];
+  if (!second.by_gains || both.bent_only != more.bent_only) return forms;
+  both.columns.push_back(more.column);
+  both.free.push_back(candidates_.signatures()[static_cast<std::size_t>(more.column)].free_sign);
+  both.fitted = true;
+  forms.push_back(both);
+  return forms;
+}
+
 // Pairs of the preferred effect with a second one. A pair must be better than the preferred effect with any
-// generic terms.
+// generic terms, unless the gains show its second effect: what generic terms add under the noise of the first
+// effect alone does not compare with a pair under a noise of its own.
 void Search::pairUp() {
-  if (appraisal_.credible.empty() || !refuted()) return;
+  if (appraisal_.credible.empty()) return;
   const Weighed first = preferred();
   const std::size_t singles = explanations_.size();
   std::vector<double> generic;  // of each pair
   const Fitted alone = fitted(first);
   if (alone.refined.effects.empty()) return;
-  for (const std::size_t e : seconds()) {
-    const SingleColumn& more = appraisal_.additions[e].beginning;
+  for (const Second& second : seconds()) {
+    const std::size_t e = second.effect;
+    const SingleColumn& more = second.beginning;
     const std::vector<bool> bent = {alone.bent_only.front(), more.bent_only};
     const std::vector<std::string> ids = {first.explaining.ids.front(), explanations_[e].ids.front()};
     const Refined both =
         refine(measured_, common_, fit_, base_, {alone.refined.effects.front(), begin(more)}, bent);
     if (both.share <= alone.refined.share) continue;
     fitted_.push_back({ids, both, bent});
-    Explaining pair{ids,
-                    {{{addColumn(both.trace)}, {false}, false, true}},
-                    first.explaining.covariates,
+    Explaining pair{ids, formsOf(first, second, addColumn(both.trace)), first.explaining.covariates,
                     first.explaining.slow && explanations_[e].slow};
     for (const simulation::Covariate c : explanations_[e].covariates) {
       if (!std::count(pair.covariates.begin(), pair.covariates.end(), c)) pair.covariates.push_back(c);
     }
     explanations_.push_back(pair);
-    generic.push_back(genericBeside(isSlowBesideFast(e)));
+    generic.push_back(second.by_gains ? 0 : genericBeside(isSlowBesideFast(e)));
   }
   if (explanations_.size() == singles) return;
   design_ = cycleDesign(measured_, fit_, common_.all, columns_, always_);

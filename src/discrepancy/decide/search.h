@@ -57,7 +57,14 @@ class Search {
   void pairUp();
   std::vector<SingleColumn> startsOf(const Weighed& weighed) const;
   bool isSlowBesideFast(std::size_t second);
-  std::vector<std::size_t> seconds();
+  struct Second {
+    std::size_t effect;  // an explanation
+    SingleColumn beginning;
+    bool by_gains;  // the gains of the cycles show it
+  };
+  std::vector<Second> seconds();
+  std::vector<Second> secondsByCycles();
+  std::vector<Form> formsOf(const Weighed& first, const Second& second, Eigen::Index fitted) const;
   double genericBeside(bool slow_beside_fast) const;
   simulation::EnabledEffect begin(const SingleColumn& column) const;
   Fitted fitSingle(const Weighed& weighed) const;
