@@ -224,11 +224,22 @@ bool Search::isSlowBesideFast(std::size_t second) {
   return explanations_[second].slow && !first.explaining.slow && !fitted(first).refined.implausible;
 }
 
-// Effects that may be a second one beside the preferred effect, the one that adds most first. Each of the two
-// must add to any form of the other: the error of a form looks like a second effect.
+// Effects that may be a second one beside the preferred effect.
 std::vector<Search::Second> Search::seconds() {
+  std::vector<Second> seconds = refuted() ? secondsByDensity() : std::vector<Second>();
+  for (const Second& one : secondsByCycles()) {
+    const auto same = [&](const Second& second) { return second.effect == one.effect; };
+    seconds.erase(std::remove_if(seconds.begin(), seconds.end(), same), seconds.end());
+    seconds.push_back(one);
+  }
+  return seconds;
+}
+
+// Those that add to the density, the one that adds most first. Each of the two must add to any form of the
+// other: the error of a form looks like a second effect.
+std::vector<Search::Second> Search::secondsByDensity() {
   std::vector<std::size_t> chosen;
-  for (std::size_t e = 0; e < appraisal_.additions.size() && refuted(); ++e) {
+  for (std::size_t e = 0; e < appraisal_.additions.size(); ++e) {
     const Addition& adds = appraisal_.additions[e];
     const bool other = explanations_[e].single() && explanations_[e].ids != preferred().explaining.ids;
     const bool enough = adds.closes >= options_.second_adds || isSlowBesideFast(e);
@@ -248,11 +259,6 @@ std::vector<Search::Second> Search::seconds() {
   chosen.erase(std::remove_if(chosen.begin(), chosen.end(), error_of_form), chosen.end());
   std::vector<Second> seconds;
   for (const std::size_t e : chosen) seconds.push_back({e, appraisal_.additions[e].beginning, false});
-  for (const Second& one : secondsByCycles()) {
-    const auto same = [&](const Second& second) { return second.effect == one.effect; };
-    seconds.erase(std::remove_if(seconds.begin(), seconds.end(), same), seconds.end());
-    seconds.push_back(one);
-  }
   return seconds;
 }
 

@@ -63,6 +63,7 @@ class Search {
     bool by_gains;  // the gains of the cycles show it
   };
   std::vector<Second> seconds();
+  std::vector<Second> secondsByDensity();
   std::vector<Second> secondsByCycles();
   std::vector<Form> formsOf(const Weighed& first, const Second& second, Eigen::Index fitted) const;
   double genericBeside(bool slow_beside_fast) const;
