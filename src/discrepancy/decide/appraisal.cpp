@@ -540,6 +540,7 @@ class Appraiser {
     if (result_.credible.empty()) return;
     const HeldOutScores left = beyond(result_.all[result_.credible.front()], always(design_));
     result_.p_beyond = chanceBeyond(left);
+    if (result_.p_beyond > options_.level) return;
     for (std::size_t e = 0; e < explanations_.size(); ++e) {
       const double nats = left.scores()[e].total;
       result_.additions.push_back({nats, 2 * nats / closable_, {}});

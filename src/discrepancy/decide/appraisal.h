@@ -67,7 +67,7 @@ struct Appraisal {
   std::size_t best = 0;               ///< of all
   std::vector<std::size_t> credible;  ///< explanations by effects that are not excluded, best first
   std::vector<std::size_t> generic;   ///< explanations by generic terms that the best effects do not exclude
-  std::vector<Addition> additions;    ///< of each explanation; empty where `credible` is
+  std::vector<Addition> additions;    ///< of each explanation; empty where nothing is left beyond the best
   bool own_form_better = false;  ///< generic terms of the best effects' own covariates are better than these
   bool generic_better = false;   ///< generic terms of other covariates are better than both
   /// Set where a random course scores beyond chance and a smooth course is excluded with the probability

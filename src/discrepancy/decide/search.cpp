@@ -226,7 +226,7 @@ bool Search::isSlowBesideFast(std::size_t second) {
 
 // Effects that may be a second one beside the preferred effect.
 std::vector<Search::Second> Search::seconds() {
-  std::vector<Second> seconds = refuted() ? secondsByDensity() : std::vector<Second>();
+  std::vector<Second> seconds = secondsByDensity();
   for (const Second& one : secondsByCycles()) {
     const auto same = [&](const Second& second) { return second.effect == one.effect; };
     seconds.erase(std::remove_if(seconds.begin(), seconds.end(), same), seconds.end());
