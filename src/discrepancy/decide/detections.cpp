@@ -95,11 +95,9 @@ Courses coursesOf(const Measured& measured, SheetResiduals& residuals) {
 
 // The strongest pattern, and the line of its course.
 struct Line {
-  double turn = 0, excess = 0, usual = 0;
+  double turn = 0, excess = 0;
   double height = 0;      // one-sided power of the strongest line / mean power of all frequencies
   double p_standing = 1;  // that a pattern that does not move has such a line
-  double both_sides = 0;  // power of the strongest line, both sides together / mean power
-  double frequency = 0;   // of that line [1 / sample], positive
 };
 
 // exp(2 pi j f i) of the frequencies 0 .. kLongestPart / 2, [samples x frequencies].
@@ -142,8 +140,7 @@ Line strongest(const Courses& courses, const Eigen::MatrixXd& covariance, const 
     powers.push_back((placed.adjoint() * covariance * placed).value().real());
   }
   const auto peak = static_cast<std::size_t>(std::max_element(powers.begin(), powers.end()) - powers.begin());
-  line.usual = statistics::upperMedian(powers);
-  line.excess = powers[peak] - line.usual;
+  line.excess = powers[peak] - statistics::upperMedian(powers);
   line.turn = turns[peak];
   place(patterns[peak]);
   const Eigen::VectorXcf course = courses.residual * placed.conjugate().cast<std::complex<float>>();
@@ -157,36 +154,16 @@ Line strongest(const Courses& courses, const Eigen::MatrixXd& covariance, const 
   const float mean = (forth.mean() + back.mean()) / 2;
   Eigen::Index at = 0;
   line.height = mean > 0 ? static_cast<double>((forth - back).cwiseAbs().maxCoeff(&at) / mean) : 0;
-  const double ratio =
-      static_cast<double>(std::max(forth[at], back[at]) / std::max(1e-30F, std::min(forth[at], back[at])));
-  line.p_standing =
-      std::min(1.0, static_cast<double>(2 * forth.size()) * beyondRatio(ratio, courses.parts.size()));
-  line.both_sides = mean > 0 ? static_cast<double>((forth + back).maxCoeff(&at) / mean) : 0;
-  line.frequency = static_cast<double>(at) / static_cast<double>(kLongestPart);
+  const auto p_at = [&](Eigen::Index f) {
+    const float more = std::max(forth[f], back[f]), less = std::max(1e-30F, std::min(forth[f], back[f]));
+    return 2 * beyondRatio(static_cast<double>(more / less), courses.parts.size());
+  };
+  // The frequency where both sides differ most was chosen among all. The ratio of two powers of equal mean
+  // does not depend on their sum, so that of the largest sum was not.
+  const double chosen = static_cast<double>(forth.size()) * p_at(at);
+  (forth + back).maxCoeff(&at);
+  line.p_standing = std::min(1.0, 2 * std::min(chosen, p_at(at)));
   return line;
-}
-
-// Takes out of the residuals what is any function of the row plus any of the column, or the smooth product of
-// both: what rows, columns, bending or an edge do. False where too few directions are left.
-bool takeOutPlaces(const SheetResiduals& residuals, const matrix::Layout& layout, Courses& courses) {
-  const auto n = static_cast<Eigen::Index>(residuals.size());
-  const auto rows = static_cast<Eigen::Index>(layout.size.rows);
-  const auto columns = static_cast<Eigen::Index>(layout.size.columns);
-  Eigen::MatrixXd places = Eigen::MatrixXd::Zero(n, rows + columns + 3);
-  for (Eigen::Index k = 0; k < n; ++k) {
-    const matrix::TaxelIndex taxel{static_cast<std::size_t>(residuals.place(static_cast<std::size_t>(k)))};
-    const auto row = static_cast<Eigen::Index>(layout.row(taxel));
-    const auto column = static_cast<Eigen::Index>(layout.column(taxel));
-    places(k, row) = places(k, rows + column) = 1;
-    const double r = static_cast<double>(row) - static_cast<double>(rows - 1) / 2;
-    const double c = static_cast<double>(column) - static_cast<double>(columns - 1) / 2;
-    places.row(k).tail(3) << r * c, r * r * c, r * c * c;
-  }
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(places);
-  if (n - qr.rank() < static_cast<Eigen::Index>(kFewestTaxels)) return false;
-  const Eigen::MatrixXf basis = (qr.householderQ() * Eigen::MatrixXd::Identity(n, qr.rank())).cast<float>();
-  courses.residual -= (courses.residual * basis).eval() * basis.transpose();
-  return true;
 }
 
 std::vector<Eigen::Index> inPlace(const SheetResiduals& residuals) {
@@ -195,37 +172,23 @@ std::vector<Eigen::Index> inPlace(const SheetResiduals& residuals) {
   return order;
 }
 
-// Probability that the taxels in any other order have a line like `own`. `score`: of a line.
-template <typename Score>
+// Probability that the taxels in any other order have a line like `own`.
 double chanceOfOrders(const Courses& courses, const Eigen::MatrixXd& covariance,
                       const SheetResiduals& residuals, const std::vector<Eigen::VectorXcd>& patterns,
-                      const std::vector<double>& turns, const DiscrepancyOptions& options, const Line& own,
-                      Score score) {
+                      const std::vector<double>& turns, const DiscrepancyOptions& options, const Line& own) {
   std::vector<Eigen::Index> order = inPlace(residuals);
   std::size_t beyond = 0, draws = 0;
   while (draws < options.null_draws) {
     const statistics::RandomStream stream = statistics::randomStream(options.seed, "hum", draws);
     for (std::size_t k = order.size(); k-- > 1;)
       std::swap(order[k], order[static_cast<std::size_t>(stream.uniform(k) * static_cast<double>(k + 1))]);
-    beyond += score(strongest(courses, covariance, residuals, patterns, turns, order)) >= score(own);
+    const Line line = strongest(courses, covariance, residuals, patterns, turns, order);
+    beyond += line.height * line.excess >= own.height * own.excess;
     ++draws;
     // No further draw can bring it below the level.
     if (static_cast<double>(1 + beyond) > options.level * static_cast<double>(options.null_draws + 1)) break;
   }
   return static_cast<double>(1 + beyond) / static_cast<double>(draws + 1);
-}
-
-// The same of a line that does not turn, beside all that the place of a taxel explains.
-double chanceOfPlaces(const Courses& courses, const Measured& measured, const SheetResiduals& residuals,
-                      const std::vector<Eigen::VectorXcd>& patterns, const std::vector<double>& turns,
-                      const DiscrepancyOptions& options) {
-  Courses left = courses;
-  if (!takeOutPlaces(residuals, measured.layout, left)) return 1;
-  const Eigen::MatrixXd covariance =
-      (left.residual.transpose() * left.residual).cast<double>() / static_cast<double>(measured.samples());
-  const Line line = strongest(left, covariance, residuals, patterns, turns, inPlace(residuals));
-  return chanceOfOrders(left, covariance, residuals, patterns, turns, options, line,
-                        [](const Line& one) { return one.both_sides * one.excess; });
 }
 
 }  // namespace
@@ -253,12 +216,9 @@ Mains findMains(const Measured& measured, const StaticFit& fit, const TaxelFit& 
   const double slope = fit.netCurve().maxCoeff() / std::max(1.0, *high - *low);
   mains.at_map = slope > 0 ? mains.amplitude / std::sqrt(2) / slope : 0;
   if (mains.at_map < leastGap(measured, options)) return mains;
-  mains.p = chanceOfOrders(courses, covariance, residuals, patterns, turns, options, line,
-                           [](const Line& one) { return one.height * one.excess; });
-  const bool standing = mains.p <= options.level && line.p_standing > options.level;
-  mains.p =
-      std::max(mains.p, standing ? chanceOfPlaces(courses, measured, residuals, patterns, turns, options)
-                                 : line.p_standing);
+  mains.p = line.p_standing;
+  if (mains.p > options.level) return mains;
+  mains.p = std::max(mains.p, chanceOfOrders(courses, covariance, residuals, patterns, turns, options, line));
   mains.found = mains.p <= options.level;
   if (!mains.found) return mains;
   const Eigen::VectorXcd pattern = patternOf(residuals, mains.turn);
@@ -281,7 +241,7 @@ Mains findMains(const Measured& measured, const StaticFit& fit, const TaxelFit& 
     before = z;
   }
   mains.rate = seconds > 0 ? steps / seconds : 0;
-  mains.beat = standing ? line.frequency * mains.rate : std::arg(turned) / (2 * M_PI) * mains.rate;
+  mains.beat = std::arg(turned) / (2 * M_PI) * mains.rate;
   return mains;
 }
 

@@ -30,10 +30,8 @@ struct Mains {
 /// Searches for hum. A hum has one phase in each taxel, and the phase advances from taxel to taxel.
 /// Therefore one of the patterns exp(j turn i), in the order of the scan, stands out, and its time course
 /// turns at one frequency, folded down by the sampling: a narrow line on one side of the spectrum. A pattern
-/// that stands still in space has the same power at f and at -f. It is hum only where its course cannot show
-/// that it turns, because the static curves take up the half of it that has the period of a cycle, and where
-/// it is more than any function of the row plus any of the column. The largest such line is held against
-/// those that the same search finds after the taxels were permuted.
+/// that stands still in space has the same power at f and at -f, and is no hum. The largest such line is held
+/// against those that the same search finds after the taxels were permuted.
 Mains findMains(const Measured& measured, const StaticFit& fit, const TaxelFit& taxels,
                 const DiscrepancyOptions& options);
 
