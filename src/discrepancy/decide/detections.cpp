@@ -96,8 +96,9 @@ Courses coursesOf(const Measured& measured, SheetResiduals& residuals) {
 // The strongest pattern, and the line of its course.
 struct Line {
   double turn = 0, excess = 0;
-  double height = 0;      // one-sided power of the strongest line / mean power of all frequencies
-  double p_standing = 1;  // that a pattern that does not move has such a line
+  double height = 0;  // one-sided power of the strongest line / mean power of all frequencies
+  // Powers of the frequencies, turning one way and the other.
+  Eigen::VectorXf forth, back;
 };
 
 // exp(2 pi j f i) of the frequencies 0 .. kLongestPart / 2, [samples x frequencies].
@@ -126,12 +127,12 @@ double beyondRatio(double ratio, std::size_t parts) {
   return std::min(1.0, p);
 }
 
-Line strongest(const Courses& courses, const Eigen::MatrixXd& covariance, const SheetResiduals& residuals,
+Line strongest(const Courses& courses, const Eigen::MatrixXd& covariance,
                const std::vector<Eigen::VectorXcd>& patterns, const std::vector<double>& turns,
                const std::vector<Eigen::Index>& order) {
   Line line;
   std::vector<double> powers;
-  Eigen::VectorXcd placed(static_cast<Eigen::Index>(residuals.size()));
+  Eigen::VectorXcd placed(static_cast<Eigen::Index>(order.size()));
   const auto place = [&](const Eigen::VectorXcd& pattern) {
     for (Eigen::Index k = 0; k < placed.size(); ++k) placed[order[static_cast<std::size_t>(k)]] = pattern[k];
   };
@@ -144,45 +145,44 @@ Line strongest(const Courses& courses, const Eigen::MatrixXd& covariance, const 
   line.turn = turns[peak];
   place(patterns[peak]);
   const Eigen::VectorXcf course = courses.residual * placed.conjugate().cast<std::complex<float>>();
-  Eigen::VectorXf forth = Eigen::VectorXf::Zero(waves().cols()), back = forth;
+  line.forth = line.back = Eigen::VectorXf::Zero(waves().cols());
   for (const Courses::Part& part : courses.parts) {
     const Eigen::VectorXcf now = course.segment(part.first, part.samples);
     const auto wave = waves().topRows(part.samples);
-    forth += (wave.adjoint() * now).cwiseAbs2();
-    back += (wave.transpose() * now).cwiseAbs2();
+    line.forth += (wave.adjoint() * now).cwiseAbs2();
+    line.back += (wave.transpose() * now).cwiseAbs2();
   }
-  const float mean = (forth.mean() + back.mean()) / 2;
-  Eigen::Index at = 0;
-  line.height = mean > 0 ? static_cast<double>((forth - back).cwiseAbs().maxCoeff(&at) / mean) : 0;
-  const auto p_at = [&](Eigen::Index f) {
-    const float more = std::max(forth[f], back[f]), less = std::max(1e-30F, std::min(forth[f], back[f]));
-    return 2 * beyondRatio(static_cast<double>(more / less), courses.parts.size());
-  };
-  // The frequency where both sides differ most was chosen among all. The ratio of two powers of equal mean
-  // does not depend on their sum, so that of the largest sum was not.
-  const double chosen = static_cast<double>(forth.size()) * p_at(at);
-  (forth + back).maxCoeff(&at);
-  line.p_standing = std::min(1.0, 2 * std::min(chosen, p_at(at)));
+  const float mean = (line.forth.mean() + line.back.mean()) / 2;
+  if (mean > 0) line.height = static_cast<double>((line.forth - line.back).cwiseAbs().maxCoeff() / mean);
   return line;
 }
 
-std::vector<Eigen::Index> inPlace(const SheetResiduals& residuals) {
-  std::vector<Eigen::Index> order(residuals.size());
-  std::iota(order.begin(), order.end(), 0);
-  return order;
+// Probability that a pattern that does not move has such a line. The frequency where both sides differ most
+// is chosen among all. The ratio of two powers of equal mean does not depend on their sum, so that of the
+// largest sum is not.
+double chanceOfStanding(const Line& line, std::size_t parts) {
+  const auto p_at = [&](Eigen::Index f) {
+    const float more = std::max(line.forth[f], line.back[f]);
+    const float less = std::max(1e-30F, std::min(line.forth[f], line.back[f]));
+    return 2 * beyondRatio(static_cast<double>(more / less), parts);
+  };
+  Eigen::Index most_different = 0, largest = 0;
+  (line.forth - line.back).cwiseAbs().maxCoeff(&most_different);
+  (line.forth + line.back).maxCoeff(&largest);
+  const double chosen = static_cast<double>(line.forth.size()) * p_at(most_different);
+  return std::min(1.0, 2 * std::min(chosen, p_at(largest)));
 }
 
 // Probability that the taxels in any other order have a line like `own`.
 double chanceOfOrders(const Courses& courses, const Eigen::MatrixXd& covariance,
-                      const SheetResiduals& residuals, const std::vector<Eigen::VectorXcd>& patterns,
-                      const std::vector<double>& turns, const DiscrepancyOptions& options, const Line& own) {
-  std::vector<Eigen::Index> order = inPlace(residuals);
+                      const std::vector<Eigen::VectorXcd>& patterns, const std::vector<double>& turns,
+                      std::vector<Eigen::Index> order, const DiscrepancyOptions& options, const Line& own) {
   std::size_t beyond = 0, draws = 0;
   while (draws < options.null_draws) {
     const statistics::RandomStream stream = statistics::randomStream(options.seed, "hum", draws);
     for (std::size_t k = order.size(); k-- > 1;)
       std::swap(order[k], order[static_cast<std::size_t>(stream.uniform(k) * static_cast<double>(k + 1))]);
-    const Line line = strongest(courses, covariance, residuals, patterns, turns, order);
+    const Line line = strongest(courses, covariance, patterns, turns, order);
     beyond += line.height * line.excess >= own.height * own.excess;
     ++draws;
     // No further draw can bring it below the level.
@@ -207,7 +207,9 @@ Mains findMains(const Measured& measured, const StaticFit& fit, const TaxelFit& 
     patterns.push_back(patternOf(residuals, turn));
   }
   const Courses courses = coursesOf(measured, residuals);
-  const Line line = strongest(courses, covariance, residuals, patterns, turns, inPlace(residuals));
+  std::vector<Eigen::Index> in_place(residuals.size());
+  std::iota(in_place.begin(), in_place.end(), 0);
+  const Line line = strongest(courses, covariance, patterns, turns, in_place);
   mains.turn = line.turn;
   const double total = covariance.trace() / static_cast<double>(residuals.size()) + taxels.within();
   mains.share = total > 0 ? 2 * line.excess / static_cast<double>(residuals.size()) / total : 0;
@@ -216,9 +218,9 @@ Mains findMains(const Measured& measured, const StaticFit& fit, const TaxelFit& 
   const double slope = fit.netCurve().maxCoeff() / std::max(1.0, *high - *low);
   mains.at_map = slope > 0 ? mains.amplitude / std::sqrt(2) / slope : 0;
   if (mains.at_map < leastGap(measured, options)) return mains;
-  mains.p = line.p_standing;
+  mains.p = chanceOfStanding(line, courses.parts.size());
   if (mains.p > options.level) return mains;
-  mains.p = std::max(mains.p, chanceOfOrders(courses, covariance, residuals, patterns, turns, options, line));
+  mains.p = std::max(mains.p, chanceOfOrders(courses, covariance, patterns, turns, in_place, options, line));
   mains.found = mains.p <= options.level;
   if (!mains.found) return mains;
   const Eigen::VectorXcd pattern = patternOf(residuals, mains.turn);
