@@ -31,8 +31,7 @@ constexpr double kShows = 0.3;
 // Limits of the rule: deviations of the noise, and the least share of a taxel's range.
 constexpr double kBeyondNoise = 5, kLeastLimit = 0.02;
 constexpr double kOpen = 0.001;  // share of full scale; see TaxelWatchOptions::floor_share
-// Share of the readings in the second half of a spell that may lie beyond the limits. In the first half a
-// fault may still be on its way.
+// Share of the readings in the later part of a spell that may lie beyond the limits.
 constexpr double kOutside = 0.05;
 // Share of a taxel's squared error that its kind must account for.
 constexpr double kOfOneKind = 0.7;
@@ -427,6 +426,17 @@ double swing(const std::vector<double>& load) {
   return most;
 }
 
+// The middle of a spell, or of its loaded scans where that is earlier: a spell may end after the load. Before
+// it a fault may still be on its way.
+std::size_t judgedFrom(const StayCourses& stay, std::size_t taxel, std::size_t from, std::size_t to) {
+  std::vector<std::size_t> loaded;
+  for (std::size_t i = from; i < to; ++i) {
+    if (stay.expected(taxel, i) >= kShows) loaded.push_back(i);
+  }
+  const std::size_t middle = from + (to - from) / 2;
+  return loaded.empty() ? middle : std::min(middle, loaded[loaded.size() / 2]);
+}
+
 // Holds the readings at the end of each spell against what is expected. Spells that show nothing do not
 // count; others count by their squared errors, so spells of two kinds are neither. `other`: the squared
 // errors of spells of another kind.
@@ -455,9 +465,8 @@ std::optional<FaultKind> FaultSearch::kindOf(std::size_t taxel, const Spells& sp
     eachSpell(spells[v], [&](std::size_t from, std::size_t to) {
       std::vector<double> reading, expected;
       double square = 0;
-      for (std::size_t i = from; i < to; ++i) {
-        square += std::pow(course.deviates(i), 2);
-        if (i - from < (to - from) / 2) continue;
+      for (std::size_t i = from; i < to; ++i) square += std::pow(course.deviates(i), 2);
+      for (std::size_t i = judgedFrom(stay, taxel, from, to); i < to; ++i) {
         reading.push_back(course.reading(i));
         expected.push_back(stay.expected(taxel, i));
       }

@@ -64,6 +64,18 @@ TEST(FaultsOfASheet, AreNamedWithTheirTimes) {
   EXPECT_TRUE(stuck[0].kind == FaultKind::kStuckTaxels);
 }
 
+// A taxel of a bent sheet reads something without load, too.
+TEST(FaultsOfASheet, AreNamedWhereTheLoadEndsBeforeTheSpell) {
+  test_support::SyntheticRig rig;
+  rig.size = {4, 5};
+  rig.surfaces = {{"cylinder", 20.0}};
+  dataset::Recording recording = test_support::syntheticRecording(rig);
+  for (std::size_t i = 484; i < recording.scans(); ++i) recording.counts[i * 20 + 7] = 0;
+  const std::vector<Fault> dead = faultsOf(recording);
+  ASSERT_EQ(dead.size(), 1u);
+  EXPECT_TRUE(dead[0].kind == FaultKind::kDeadTaxels);
+}
+
 TEST(FaultsOfASheet, AreOfNoKindWhereTheTaxelStillFollowsTheLoad) {
   EXPECT_TRUE(faultsOf(failing({7}, [](int count) { return count / 2; })).empty());
 }
