@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 
 #include "discrepancy/decide/constancy.h"
@@ -417,20 +418,22 @@ void Search::keepLikeTooLarge() {
             [&](std::size_t a, std::size_t b) { return appraisal_.all[a].total > appraisal_.all[b].total; });
 }
 
-// Where the score does not decide, what is known beforehand does. An effect that would have to be larger than
-// its sources know comes last. Before it come effects that need evidence which was not recorded: nothing here
-// could have refuted them, while the others were put to the test.
+// Among what the score does not exclude, what is known beforehand counts, too: a size larger than any that
+// its sources know, or a lack of evidence that could have refuted it, as much as the odds of `credible`.
 void Search::putLikelyFirst() {
   const AvailableEvidence evidence = availableEvidence(measured_);
-  const auto tested = [&](std::size_t e) {
-    const auto& ids = appraisal_.all[e].explaining.ids;
-    return std::all_of(ids.begin(), ids.end(),
-                       [&](const std::string& id) { return evidence.hasAll(measured_.info(id).needs); });
-  };
-  auto& set = appraisal_.credible;
-  std::stable_partition(set.begin(), set.end(), tested);
-  std::stable_partition(set.begin(), set.end(),
-                        [&](std::size_t e) { return !fitted(appraisal_.all[e]).refined.implausible; });
+  const double odds = std::log(options_.credible / (1 - options_.credible));
+  std::map<std::size_t, double> likely;  // [nats]
+  for (const std::size_t e : appraisal_.credible) {
+    const Weighed& one = appraisal_.all[e];
+    const auto& ids = one.explaining.ids;
+    const bool tested = std::all_of(ids.begin(), ids.end(), [&](const std::string& id) {
+      return evidence.hasAll(measured_.info(id).needs);
+    });
+    likely[e] = one.total - odds * (fitted(one).refined.implausible + !tested);
+  }
+  std::stable_sort(appraisal_.credible.begin(), appraisal_.credible.end(),
+                   [&](std::size_t a, std::size_t b) { return likely[a] > likely[b]; });
 }
 
 // An effect explains nothing where its columns take up much more than its forward model does, whose size may
