@@ -112,17 +112,20 @@ void Verdicts::tellUnknown() {
     decision_.depends_on.push_back(simulation::name(c));
 }
 
-// Whether a random course takes the place of what is found: where this is no good explanation, leaves
-// something that the random course does not leave, or is the same effect with another course, and everything
-// scores lower than the random course.
+// Whether a random course takes the place of what is found: where it scores highest and excludes all of it;
+// or, where it leaves nothing, what is found is no good explanation, leaves something, or is the same effect
+// with another course.
 bool Verdicts::courseIsBest() {
   const Weighed* course = search_.course();
-  if (!course || appraisal_.course->p_beyond <= options_.level) return false;
+  if (!course) return false;
   const bool best = std::all_of(appraisal_.all.begin(), appraisal_.all.end(), [&](const Weighed& one) {
     return !one.contends || one.total <= course->total;
   });
-  return best && (unknown() || search_.refuted() || wrongForm() ||
-                  search_.preferred().explaining.ids == course->explaining.ids);
+  if (!best) return false;
+  if (!appraisal_.credible.empty() && appraisal_.course->rivals.empty()) return true;
+  return appraisal_.course->p_beyond > options_.level &&
+         (unknown() || search_.refuted() || wrongForm() ||
+          search_.preferred().explaining.ids == course->explaining.ids);
 }
 
 void Verdicts::tellCourse() {
