@@ -22,8 +22,8 @@ TEST(WrongForm, IsSaidOfASizeThatIsNotPlausible) {
 }
 
 // A relaxation of this size is larger than its sources know, a leak of all pressure behind the sheet is not:
-// so the relaxation does not exclude the leak. It comes first where its score is higher by more than these
-// odds.
+// so the relaxation does not exclude the leak. It comes first, because its score is higher by more than the
+// odds against such a size.
 TEST(WrongForm, IsNotSaidWhereAPlausibleEffectResemblesIt) {
   const DiscrepancyReport report = investigate(planted::problem(
       planted::kTwoSpeeds, "  relaxation: {relaxed_share: 0.8, fastest: 30, slowest: 1000}\n"));

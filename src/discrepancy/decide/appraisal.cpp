@@ -405,7 +405,7 @@ class Appraiser {
     for (const Form& form : one.explaining.forms) {
       if (form.trend) trend = std::max(trend, own.fitAll(form).likelihood);
     }
-    const double odds = std::log(options_.credible / (1 - options_.credible));
+    const double odds = credibleOdds(options_);
     if (chosen.trend || one.score.fit.likelihood < trend + odds) return;
     if (result_.course && result_.all[result_.course->explanation].total >= one.total) return;
     one.contends = true;
@@ -584,6 +584,10 @@ class Appraiser {
 };
 
 }  // namespace
+
+double credibleOdds(const DiscrepancyOptions& options) {
+  return std::log(options.credible / (1 - options.credible));
+}
 
 NullFit fitNull(const CycleDesign& design) {
   const Chosen chosen = always(design);

@@ -42,6 +42,9 @@ struct NullFit {
 };
 NullFit fitNull(const CycleDesign& design);
 
+/// Odds at which an explanation is excluded [nats].
+double credibleOdds(const DiscrepancyOptions& options);
+
 /// What a single explanation adds to the best effect.
 struct Addition {
   double nats = 0;

@@ -3,7 +3,6 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <optional>
 
 #include "discrepancy/decide/constancy.h"
@@ -422,18 +421,17 @@ void Search::keepLikeTooLarge() {
 // its sources know, or a lack of evidence that could have refuted it, as much as the odds of `credible`.
 void Search::putLikelyFirst() {
   const AvailableEvidence evidence = availableEvidence(measured_);
-  const double odds = std::log(options_.credible / (1 - options_.credible));
-  std::map<std::size_t, double> likely;  // [nats]
-  for (const std::size_t e : appraisal_.credible) {
+  const double odds = credibleOdds(options_);
+  const auto likely = [&](std::size_t e) {  // [nats]
     const Weighed& one = appraisal_.all[e];
     const auto& ids = one.explaining.ids;
     const bool tested = std::all_of(ids.begin(), ids.end(), [&](const std::string& id) {
       return evidence.hasAll(measured_.info(id).needs);
     });
-    likely[e] = one.total - odds * (fitted(one).refined.implausible + !tested);
-  }
+    return one.total - odds * (fitted(one).refined.implausible + !tested);
+  };
   std::stable_sort(appraisal_.credible.begin(), appraisal_.credible.end(),
-                   [&](std::size_t a, std::size_t b) { return likely[a] > likely[b]; });
+                   [&](std::size_t a, std::size_t b) { return likely(a) > likely(b); });
 }
 
 // An effect explains nothing where its columns take up much more than its forward model does, whose size may
