@@ -30,7 +30,8 @@ constexpr double kLeastMean = 1e-6;  // has a logarithm
 constexpr double kShows = 0.3;
 // Limits of the rule: deviations of the noise, and the least share of a taxel's range.
 constexpr double kBeyondNoise = 5, kLeastLimit = 0.02;
-constexpr double kOpen = 0.001;  // share of full scale; see TaxelWatchOptions::floor_share
+constexpr double kOpen = 0.001;   // share of full scale; see TaxelWatchOptions::floor_share
+constexpr double kOpenCodes = 3;  // of an open circuit; a converter's noise
 // Share of the readings in the later part of a spell that may lie beyond the limits.
 constexpr double kOutside = 0.05;
 // Share of a taxel's squared error that its kind must account for.
@@ -250,6 +251,11 @@ class FaultSearch {
                 double tests) const;
   Course courseOf(std::size_t taxel) const;
   void join(std::size_t taxel, Spells& spells) const;
+  double longestRun(std::size_t taxel, const Spells& spells) const;
+  Spells heldParts(std::size_t taxel, const Spells& spells) const;
+  double squaresIn(std::size_t taxel, const Spells& spells) const;
+  Spells openParts(std::size_t taxel, const Spells& spells) const;
+  bool failsInParts(FailingTaxel& failing) const;
   std::optional<FaultKind> kindOf(std::size_t taxel, const Spells& spells, double& other) const;
   std::vector<PartGain> gainsOf(std::size_t taxel) const;
   std::optional<Fade> fadeOf(std::size_t taxel) const;
@@ -437,27 +443,95 @@ std::size_t judgedFrom(const StayCourses& stay, std::size_t taxel, std::size_t f
   return loaded.empty() ? middle : std::min(middle, loaded[loaded.size() / 2]);
 }
 
+// How many scans in a row have one code before a sound taxel is unlikely to show it: by the share of its
+// other scans, outside of the spells, that repeat the code before.
+double FaultSearch::longestRun(std::size_t taxel, const Spells& spells) const {
+  double kept = 1, steps = 2;
+  for (std::size_t v = 0; v < courses_.size(); ++v) {
+    TaxelCourse course(courses_[v], taxel);
+    for (std::size_t i = 1; i < courses_[v].scans(); ++i) {
+      if (spells[v][i] || spells[v][i - 1]) continue;
+      kept += course.repeats(i);
+      steps += 1;
+    }
+  }
+  return 1 + std::log(options_.level) / std::log(kept / steps);
+}
+
+// The parts of the spells in which the taxel keeps one code for longer. It may keep another one in each.
+Spells FaultSearch::heldParts(std::size_t taxel, const Spells& spells) const {
+  const double longest = longestRun(taxel, spells);
+  Spells held;
+  for (std::size_t v = 0; v < spells.size(); ++v) {
+    held.emplace_back(spells[v].size(), false);
+    TaxelCourse course(courses_[v], taxel);
+    eachSpell(spells[v], [&](std::size_t from, std::size_t to) {
+      for (std::size_t first = from, i = from + 1; i <= to; ++i) {
+        if (i < to && course.repeats(i)) continue;
+        // The first scan is sound: its reading is the one that is kept.
+        if (longest < double(i - first))
+          std::fill(held.back().begin() + first + 1, held.back().begin() + i, true);
+        first = i;
+      }
+    });
+  }
+  return held;
+}
+
+double FaultSearch::squaresIn(std::size_t taxel, const Spells& spells) const {
+  double squares = 0;
+  for (std::size_t v = 0; v < spells.size(); ++v) {
+    TaxelCourse course(courses_[v], taxel);
+    eachSpell(spells[v], [&](std::size_t from, std::size_t to) {
+      for (std::size_t i = from; i < to; ++i) squares += std::pow(course.deviates(i), 2);
+    });
+  }
+  return squares;
+}
+
+// The parts of the spells in which the taxel reads no more than an open circuit.
+Spells FaultSearch::openParts(std::size_t taxel, const Spells& spells) const {
+  const double most = std::max(kOpen, kOpenCodes / sheet_.full_scale);
+  Spells open = spells;
+  for (std::size_t v = 0; v < spells.size(); ++v) {
+    TaxelCourse course(courses_[v], taxel);
+    for (std::size_t i = 0; i < spells[v].size(); ++i) open[v][i] = spells[v][i] && course.reading(i) <= most;
+  }
+  return open;
+}
+
+// Spells may hold sound scans between two failures. Where parts of them are all of one kind and account for
+// most of their squared error, the parts become the spells.
+bool FaultSearch::failsInParts(FailingTaxel& failing) const {
+  const double all = squaresIn(failing.taxel, failing.spells);
+  const auto become = [&](Spells parts, FaultKind kind) {
+    double other = 0;
+    if (kindOf(failing.taxel, parts, other) != kind) return false;
+    if (squaresIn(failing.taxel, parts) < kOfOneKind * all) return false;
+    failing.kind = kind;
+    failing.spells = std::move(parts);
+    return true;
+  };
+  return become(openParts(failing.taxel, failing.spells), FaultKind::kDeadTaxels) ||
+         become(heldParts(failing.taxel, failing.spells), FaultKind::kStuckTaxels);
+}
+
 // Holds the readings at the end of each spell against what is expected. Spells that show nothing do not
 // count; others count by their squared errors, so spells of two kinds are neither. `other`: the squared
 // errors of spells of another kind.
 std::optional<FaultKind> FaultSearch::kindOf(std::size_t taxel, const Spells& spells, double& other) const {
   std::vector<double> sound;
-  const double code = 0.5 / sheet_.full_scale;
-  double kept = 1, steps = 2;  // readings that are those of the scan before, and all
   double unloaded = INFINITY;  // lowest reading of the sheet [share of full scale]
   for (std::size_t v = 0; v < courses_.size(); ++v) {
     for (const std::size_t t : taxels_) unloaded = std::min(unloaded, courses_[v].lowest[t]);
     TaxelCourse course(courses_[v], taxel);
     for (std::size_t i = 0; i < courses_[v].scans(); ++i) {
-      if (spells[v][i]) continue;
-      sound.push_back(std::abs(course.deviates(i)));
-      if (i == 0 || spells[v][i - 1]) continue;
-      kept += std::abs(course.reading(i) - course.reading(i - 1)) < code;
-      steps += 1;
+      if (!spells[v][i]) sound.push_back(std::abs(course.deviates(i)));
     }
   }
   const double noise = statistics::kDeviationPerMedian * statistics::upperMedian(sound, 0);
   const double limit = std::max(kLeastLimit, kBeyondNoise * noise);  // [range of the taxel]
+  const double longest = longestRun(taxel, spells), code = 0.5 / sheet_.full_scale;
   double all = 0, dead = 0, stuck = 0;
   for (std::size_t v = 0; v < courses_.size(); ++v) {
     const StayCourses& stay = courses_[v];
@@ -476,8 +550,8 @@ std::optional<FaultKind> FaultSearch::kindOf(std::size_t taxel, const Spells& sp
       // A lag keeps a reading still while a load comes, but not while it comes and goes.
       const double lost = kResponds * swing(expected) * stay.unit[taxel];
       // One code for so long that the noise of a sound taxel would have changed it: no open circuit either.
-      const bool frozen = reading.back() - reading.front() < code &&
-                          std::pow(kept / steps, double(reading.size() - 1)) < options_.level;
+      const bool one_code = reading.back() - reading.front() < code;
+      const bool frozen = one_code && longest < double(reading.size());
       const double most = limit * stay.unit[taxel];
       const double floor = std::max(kOpen, unloaded + (frozen ? -most : most));
       const auto verdict = verdictOf(
@@ -657,6 +731,7 @@ std::vector<FailingTaxel> FaultSearch::failingTaxels() const {
     join(taxel, spells);
     double other = 0;
     failing.push_back({taxel, kindOf(taxel, spells, other), outlier.p, spells, {}});
+    if (!failing.back().kind && failsInParts(failing.back())) continue;
     // What is dead at last may have faded before.
     const std::optional<Fade> fade = failing.back().kind && other == 0 ? std::nullopt : fadeOf(taxel);
     if (!fade && !failing.back().kind) fadeInSpells(failing.back());

@@ -64,6 +64,11 @@ class TaxelCourse {
 
   /// As the board sent it [share of full scale].
   double reading(std::size_t scan) { return counts_[courses_.stay->first + scan] / courses_.full_scale; }
+  /// Whether a scan, not the first, has the code of the one before.
+  bool repeats(std::size_t scan) {
+    const std::size_t at = courses_.stay->first + scan;
+    return counts_[at] == counts_[at - 1];
+  }
   /// Less the expected reading [unit of the courses].
   double deviates(std::size_t scan) {
     return (reading(scan) - courses_.expectedReading(taxel_, scan)) / courses_.unit[taxel_];

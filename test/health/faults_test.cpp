@@ -117,6 +117,39 @@ TEST(FaultsOfASheet, AreFoundWhereOnlyHighReadingsOfAMountingAreSound) {
   EXPECT_NEAR(faults[0].share, double(lost) / double(recording.scans()), 0.05);
 }
 
+// In the second mounting a taxel fails for most of each of the spells, which are so near to each other that
+// they make one. `reading`: of the failing taxel, from that at the begin of its spell.
+template <typename Reading>
+std::vector<Fault> foundWhereSpellsAreNear(Reading reading) {
+  test_support::SyntheticRig rig;
+  rig.size = {4, 5};
+  rig.noise = 100;
+  dataset::Recording recording =
+      joined(test_support::syntheticRecording(rig), test_support::syntheticRecording(rig));
+  const std::size_t again = recording.scans() / 2, every = 90, sound = 10;
+  for (std::size_t i = again; i < recording.scans(); ++i) {
+    const std::size_t since = (i - again) % every;
+    if (since < sound) continue;
+    recording.counts[i * 20 + 13] = reading(recording.counts[(i - since + sound - 1) * 20 + 13]);
+  }
+  return faultsOf(recording, again);
+}
+
+TEST(FaultsOfASheet, AreStuckTaxelsWhereOneSticksAtAnotherReadingEachTime) {
+  const std::vector<Fault> faults = foundWhereSpellsAreNear([](std::uint16_t kept) { return kept; });
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_TRUE(faults[0].kind == FaultKind::kStuckTaxels);
+  EXPECT_EQ(faults[0].taxels, std::vector<std::size_t>{13});
+}
+
+TEST(FaultsOfASheet, AreDeadTaxelsWhereOneIsOpenAgainAndAgain) {
+  const std::vector<Fault> faults =
+      foundWhereSpellsAreNear([](std::uint16_t kept) -> std::uint16_t { return kept % 2; });
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_TRUE(faults[0].kind == FaultKind::kDeadTaxels);
+  EXPECT_NEAR(faults[0].share, 0.5 * 80 / 90, 0.05);
+}
+
 // The median of a line counts, so one taxel makes no line.
 TEST(FaultsOfASheet, AreLinesOnlyWhereTheirTaxelsFailTogether) {
   const auto half = [](int count) { return count / 2; };
