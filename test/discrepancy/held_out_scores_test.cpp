@@ -196,6 +196,30 @@ TEST(HeldOutScores, EqualADenseComputation) {
   EXPECT_NEAR(scores.information(0), information, 1e-6 * information);
 }
 
+// The predictions of two forms, weighed by their marginal likelihoods in the other folds.
+TEST(HeldOutScores, OfTwoFormsAreTheirMeanDensity) {
+  CycleDesign design = drawn::design({6, 8, 1, 4, {drawn::loop, fadingSoon}});
+  drawn::addColumn(design, 0, 3e-4);
+  drawn::addNoise(design, drawn::wanderingNoise(), 1);
+  const StaticModel model(design);
+  constexpr std::size_t kFolds = 3;
+  Explaining either = explaining({0}, {true});
+  either.forms.push_back({{1}, {true}});
+  const std::vector<Explaining> all = {explaining({0}, {true}), explaining({1}, {true}), either};
+  const HeldOutScores scores(design, drawn::wanderingNoise(), model, all, kFolds, 4);
+  for (std::size_t c = 0; c < design.cycles.size(); ++c) {
+    double sum = 0, weights = 0;
+    for (Eigen::Index k = 0; k < 2; ++k) {
+      Dense dense(design, drawn::wanderingNoise(), model, {k});
+      dense.gather(kFolds, c % kFolds);
+      const double weight = std::exp(dense.logLikelihood(dense.bestVariance()) - dense.logLikelihood(0));
+      sum += weight * std::exp(scores.scores()[static_cast<std::size_t>(k)].nats[c]);
+      weights += weight;
+    }
+    EXPECT_NEAR(scores.scores()[2].nats[c], std::log(sum / weights), 1e-6) << c;
+  }
+}
+
 // The form with the largest marginal likelihood counts; one that acts on bent surfaces alone is 0 on flat
 // ones.
 TEST(HeldOutScores, ChooseTheFormThatActs) {

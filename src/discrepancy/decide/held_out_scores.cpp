@@ -163,6 +163,10 @@ void addTo(Eigen::MatrixXd& sum, const std::vector<Index>& rows, const Eigen::Ma
   for (std::size_t a = 0; a < rows.size(); ++a) sum.row(rows[a]) += part.row(static_cast<Index>(a));
 }
 
+double logOfSum(double a, double b) {  // of exp(a) + exp(b); b is finite
+  return std::max(a, b) + std::log1p(std::exp(-std::abs(a - b)));
+}
+
 // What a form that was fitted to other cycles predicts: its coefficients at the posterior mode, and their
 // covariance. `gram`: of the fit. Columns that signs leave out predict nothing.
 class FormPrediction {
@@ -438,25 +442,63 @@ std::pair<FormFit, std::size_t> HeldOutScores::bestForm(const Fold& fold, std::s
 }
 
 void HeldOutScores::score() {
+  std::vector<Eigen::MatrixXd> errors;
+  for (const Whitened& w : cycles_) errors.push_back(w.test_error);
   for (std::size_t e = 0; e < explanations_.size(); ++e) {
     HeldOutScore score;
     score.nats.assign(cycles_.size(), 0.0);
     for (std::size_t f = 0; f < fold_number_; ++f) {
-      const auto best = bestForm(folds_[f], e);
-      if (best.first.variance == 0) continue;
-      const FormPrediction prediction(folds_[f].gram[first_form_[e] + best.second], best.first);
-      const Form& form = explanations_[e].forms[best.second];
-      for (std::size_t c = 0; c < cycles_.size(); ++c) {
-        const Whitened& w = cycles_[c];
-        if (w.fold == f && !w.covered.empty())
-          score.nats[c] = prediction.nats(columnsOf(w.test_net, form), w.test_error);
-      }
+      const Eigen::MatrixXd nats = gains(f, e, folds_[f].right, errors);
+      const std::vector<std::size_t> tested = testedIn(f);
+      for (std::size_t k = 0; k < tested.size(); ++k) score.nats[tested[k]] = nats(static_cast<Index>(k), 0);
     }
     std::tie(score.fit, score.form) = bestForm(all_, e);
     for (const double nats : score.nats) score.total += nats;
     if (explanations_[e].by_chance) score.total = score.fit.likelihood;
     scores_.push_back(score);
   }
+}
+
+std::vector<std::size_t> HeldOutScores::testedIn(std::size_t f) const {
+  std::vector<std::size_t> tested;
+  for (std::size_t c = 0; c < cycles_.size(); ++c) {
+    if (cycles_[c].fold == f && !cycles_[c].covered.empty()) tested.push_back(c);
+  }
+  return tested;
+}
+
+// What an explanation adds to the logarithm of the predictive density of the cycles that are tested in a
+// fold, for each of some readings [cycles x readings] [nats]. Its forms predict together, weighed by their
+// marginal likelihoods in the other folds. `right`: products of the columns with the readings of the other
+// folds. `errors`: of each cycle, the static model fitted to the other folds. Source: J. Hoeting et al.,
+// Bayesian model averaging, Statistical Science 14 (1999) 382-417.
+Eigen::MatrixXd HeldOutScores::gains(std::size_t f, std::size_t explanation, const Eigen::MatrixXd& right,
+                                     const std::vector<Eigen::MatrixXd>& errors) const {
+  const std::vector<std::size_t> tested = testedIn(f);
+  const std::vector<Form>& forms = explanations_[explanation].forms;
+  Eigen::MatrixXd nats = Eigen::MatrixXd::Constant(Index(tested.size()), right.cols(), -INFINITY);
+  Eigen::VectorXd weights = Eigen::VectorXd::Constant(right.cols(), -INFINITY);
+  for (std::size_t i = 0; i < forms.size(); ++i) {
+    const Eigen::MatrixXd& gram = folds_[f].gram[first_form_[explanation] + i];
+    const FormFitter fitter(gram, forms[i].free);
+    const Eigen::MatrixXd own = rowsOf(right, placesOf(forms[i]));
+    std::vector<Eigen::MatrixXd> columns;
+    for (const std::size_t c : tested) columns.push_back(columnsOf(cycles_[c].test_net, forms[i]));
+    for (Index d = 0; d < right.cols(); ++d) {
+      const FormFit fit = fitter.fit(own.col(d));
+      weights[d] = logOfSum(weights[d], fit.likelihood);
+      if (fit.variance == 0) {
+        for (Index k = 0; k < nats.rows(); ++k) nats(k, d) = logOfSum(nats(k, d), fit.likelihood);
+        continue;
+      }
+      const FormPrediction prediction(gram, fit);
+      for (std::size_t k = 0; k < tested.size(); ++k) {
+        double& sum = nats(static_cast<Index>(k), d);
+        sum = logOfSum(sum, fit.likelihood + prediction.nats(columns[k], errors[tested[k]].col(d)));
+      }
+    }
+  }
+  return nats.rowwise() - weights.transpose();
 }
 
 // Noise, one column for each draw.
@@ -480,36 +522,6 @@ std::vector<HeldOutScores::Drawn> HeldOutScores::draw(Index draws, std::uint64_t
     test[c] = w.test_root.triangularView<Eigen::Lower>().solve(rowsOf(w.root * z, w.covered));
   }
   return drawn;
-}
-
-// What an explanation gains in the cycles of one fold, for each draw. `right`: products of the columns with
-// the noise of the other folds. `errors`: of each cycle, the static model fitted to the other folds.
-void HeldOutScores::addGains(std::size_t f, std::size_t explanation, const Eigen::MatrixXd& right,
-                             const std::vector<Eigen::MatrixXd>& errors, std::vector<double>& totals) const {
-  const std::vector<Form>& forms = explanations_[explanation].forms;
-  std::vector<FormFit> best(totals.size());
-  std::vector<std::size_t> at(totals.size());
-  for (std::size_t i = 0; i < forms.size(); ++i) {
-    const FormFitter fitter(folds_[f].gram[first_form_[explanation] + i], forms[i].free);
-    const Eigen::MatrixXd own = rowsOf(right, placesOf(forms[i]));
-    for (std::size_t d = 0; d < totals.size(); ++d) {
-      const FormFit fit = fitter.fit(own.col(static_cast<Index>(d)));
-      if (fit.likelihood > best[d].likelihood) best[d] = fit, at[d] = i;
-    }
-  }
-  std::vector<std::vector<Eigen::MatrixXd>> columns(cycles_.size());  // of each cycle of the fold and form
-  for (std::size_t c = 0; c < cycles_.size(); ++c) {
-    if (cycles_[c].fold != f || cycles_[c].covered.empty()) continue;
-    for (const Form& form : forms) columns[c].push_back(columnsOf(cycles_[c].test_net, form));
-  }
-  for (std::size_t d = 0; d < totals.size(); ++d) {
-    if (best[d].variance == 0) continue;
-    const FormPrediction prediction(folds_[f].gram[first_form_[explanation] + at[d]], best[d]);
-    for (std::size_t c = 0; c < cycles_.size(); ++c) {
-      if (!columns[c].empty())
-        totals[d] += prediction.nats(columns[c][at[d]], errors[c].col(static_cast<Index>(d)));
-    }
-  }
 }
 
 // The largest marginal likelihood of the forms of an explanation, for each draw.
@@ -545,7 +557,9 @@ NullScores HeldOutScores::nullScores(std::size_t draws, std::uint64_t seed, unsi
       if (w.fold == f && !w.covered.empty()) errors[c] -= w.test_statics * rowsOf(curves, w.places);
     }
     matrix::forEachTaxel(explanations_.size(), threads, [&](std::size_t e) {
-      if (!explanations_[e].by_chance) addGains(f, e, right, errors, null.of[e]);
+      if (explanations_[e].by_chance) return;
+      const Eigen::RowVectorXd sums = gains(f, e, right, errors).colwise().sum();
+      for (std::size_t d = 0; d < draws; ++d) null.of[e][d] += sums[static_cast<Index>(d)];
     });
   }
   const Eigen::MatrixXd right = all.columns - all_.solved.transpose() * all.statics;

@@ -105,8 +105,9 @@ class HeldOutScores {
   struct Drawn;
   struct Products;
   std::vector<Drawn> draw(Eigen::Index draws, std::uint64_t seed, std::vector<Eigen::MatrixXd>& test) const;
-  void addGains(std::size_t f, std::size_t explanation, const Eigen::MatrixXd& right,
-                const std::vector<Eigen::MatrixXd>& errors, std::vector<double>& totals) const;
+  std::vector<std::size_t> testedIn(std::size_t f) const;
+  Eigen::MatrixXd gains(std::size_t f, std::size_t explanation, const Eigen::MatrixXd& right,
+                        const std::vector<Eigen::MatrixXd>& errors) const;
   std::vector<double> likelihoods(std::size_t explanation, const Eigen::MatrixXd& right) const;
   void chooseColumns();
   void whiten(const CycleNoise& noise, const StaticModel& model);
