@@ -136,6 +136,16 @@ TEST(Investigate, NamesCreepAndALeakApart) {
   EXPECT_GT(leak.gap.closed, 0.9);
 }
 
+// Its change of the reading is far from linear in its share.
+TEST(Investigate, NamesALeakThatTakesMostOfTheLoadAway) {
+  const DiscrepancyReport leak =
+      answerTo(planted(kTwoSpeeds, "  seal_leak: {time_constant: 110, carried_over: false}\n"));
+  ASSERT_FALSE(leak.credible_set.empty()) << leak.sentence;
+  EXPECT_EQ(leak.credible_set.at(0), std::vector<std::string>{"seal_leak"}) << leak.sentence;
+  ASSERT_TRUE(leak.added.effect("seal_leak"));
+  EXPECT_NEAR(leak.added.effect("seal_leak")->values.at("time_constant"), 110, 10);
+}
+
 TEST(Investigate, FindsARowThatFails) {
   const DiscrepancyReport row =
       answerTo(planted(kTwoSpeeds, "  row_fault: {share: 0.04, line: 1, burst: 3, depth: 0.7}\n"));

@@ -85,7 +85,15 @@ constexpr double kLeastSlope = 0.05;  // of the mean one: below it a reading tel
 // begins at these multiples of the strength of the best column, or of the usual strength: a delay of seconds
 // is far from linear.
 constexpr double kStarts[] = {1, 3, 10};
+// Combinations of shapes at which it begins besides, and how much of the error may be left then.
+constexpr std::size_t kShapes = 2;
+constexpr double kClearlyLess = 0.9;
 constexpr std::size_t kSeconds = 2;  // effects that are tried as a second one
+
+// Signatures of several amplitudes.
+bool isOfOneShape(const Signature& a, const Signature& b) {
+  return a.id == b.id && a.strength == b.strength && a.state_kept == b.state_kept && a.values == b.values;
+}
 
 }  // namespace
 
@@ -150,6 +158,34 @@ std::vector<SingleColumn> Search::startsOf(const Weighed& weighed) const {
   return starts;
 }
 
+// Tries each combination of an effect's shapes with its usual strength, which then follows from the change of
+// the trace.
+std::vector<SingleColumn> Search::nearestShapes(const std::string& id) const {
+  const Forward forward(measured_, common_, fit_, base_);
+  const Trace nothing = *forward.left({}, {});
+  std::vector<std::pair<double, SingleColumn>> tried;  // with what it closes of the squared error
+  const auto& all = candidates_.signatures();
+  for (std::size_t s = 0; s < all.size(); ++s) {
+    if (all[s].id != id || (s > 0 && isOfOneShape(all[s], all[s - 1]))) continue;
+    const double usual =
+        simulation::parameter(measured_.info(id), all[s].strength).usual / std::abs(all[s].scale);
+    SingleColumn start{static_cast<Eigen::Index>(s), usual, false};
+    const auto left = forward.left({begin(start)}, {false});
+    if (!left || usual == 0) continue;
+    const Trace change = nothing - *left;
+    const double pull = change.dot(nothing), square = change.squaredNorm();
+    if (!(square > 0) || (pull < 0 && !all[s].free_sign)) continue;
+    start.coefficient *= pull / square;
+    tried.emplace_back(pull * pull / square, start);
+  }
+  const std::size_t number = std::min(kShapes, tried.size());
+  std::partial_sort(tried.begin(), tried.begin() + number, tried.end(),
+                    [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<SingleColumn> nearest;
+  for (std::size_t k = 0; k < number; ++k) nearest.push_back(tried[k].second);
+  return nearest;
+}
+
 simulation::EnabledEffect Search::begin(const SingleColumn& column) const {
   const Signature& signature = candidates_.signatures()[static_cast<std::size_t>(column.column)];
   simulation::EnabledEffect effect{signature.id, signature.values};
@@ -161,17 +197,30 @@ simulation::EnabledEffect Search::begin(const SingleColumn& column) const {
   return effect;
 }
 
+// The shapes are a last resort: among sizes and shapes that fit nearly alike, those near the best column
+// stay.
 Fitted Search::fitSingle(const Weighed& weighed) const {
   Fitted best{weighed.explaining.ids, {}, {false}};
   bool any = false;
-  for (const SingleColumn& start : startsOf(weighed)) {
+  std::vector<std::pair<simulation::EnabledEffect, bool>> tried;  // clamped strengths may be the same
+  const auto tryFrom = [&](const SingleColumn& start, double left) {
     const std::vector<bool> bent = {start.bent_only};
-    const Refined now = refine(measured_, common_, fit_, base_, {begin(start)}, bent);
-    if (any && now.share <= best.refined.share) continue;
+    const simulation::EnabledEffect from = begin(start);
+    const bool again = std::any_of(tried.begin(), tried.end(), [&](const auto& one) {
+      return one.first.values == from.values && one.first.carried_over == from.carried_over &&
+             one.second == start.bent_only;
+    });
+    if (again) return;
+    tried.emplace_back(from, start.bent_only);
+    const Refined now = refine(measured_, common_, fit_, base_, {from}, bent);
+    if (any && 1 - now.share >= left * (1 - best.refined.share)) return;
     any = true;
     best.refined = now;
     best.bent_only = bent;
-  }
+  };
+  for (const SingleColumn& start : startsOf(weighed)) tryFrom(start, 1);
+  for (const SingleColumn& start : nearestShapes(weighed.explaining.ids.front()))
+    tryFrom(start, kClearlyLess);
   return best;
 }
 

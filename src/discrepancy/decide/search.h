@@ -56,6 +56,7 @@ class Search {
   void sharpen();
   void pairUp();
   std::vector<SingleColumn> startsOf(const Weighed& weighed) const;
+  std::vector<SingleColumn> nearestShapes(const std::string& id) const;
   bool isSlowBesideFast(std::size_t second);
   struct Second {
     std::size_t effect;  // an explanation
