@@ -482,9 +482,8 @@ double FaultSearch::squaresIn(std::size_t taxel, const Spells& spells) const {
   double squares = 0;
   for (std::size_t v = 0; v < spells.size(); ++v) {
     TaxelCourse course(courses_[v], taxel);
-    eachSpell(spells[v], [&](std::size_t from, std::size_t to) {
-      for (std::size_t i = from; i < to; ++i) squares += std::pow(course.deviates(i), 2);
-    });
+    for (std::size_t i = 0; i < spells[v].size(); ++i)
+      if (spells[v][i]) squares += std::pow(course.deviates(i), 2);
   }
   return squares;
 }

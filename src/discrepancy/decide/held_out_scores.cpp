@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <tuple>
 
 #include "matrix/for_each_taxel.h"
@@ -393,8 +394,10 @@ void HeldOutScores::solveFolds() {
     if (f == fold_number_) mixed_ = std::move(others.mixed);
     if (f == fold_number_) break;
     const Eigen::VectorXd curve = fold.inverse * others.static_reading;
-    for (Whitened& w : cycles_) {
+    for (std::size_t c = 0; c < cycles_.size(); ++c) {
+      Whitened& w = cycles_[c];
       if (w.fold != f || w.covered.empty()) continue;
+      fold.tested.push_back(c);
       whitenTest(w, fold.inverse);
       Eigen::VectorXd own(static_cast<Index>(w.places.size()));
       for (std::size_t a = 0; a < w.places.size(); ++a) own[static_cast<Index>(a)] = curve[w.places[a]];
@@ -429,13 +432,13 @@ std::vector<Index> HeldOutScores::placesOf(const Form& form) const {
   return places;
 }
 
-// The form of an explanation with the largest marginal likelihood in the cycles that a fold leaves.
-std::pair<FormFit, std::size_t> HeldOutScores::bestForm(const Fold& fold, std::size_t explanation) const {
+// The form of an explanation with the largest marginal likelihood in all cycles.
+std::pair<FormFit, std::size_t> HeldOutScores::bestForm(std::size_t explanation) const {
   const std::vector<Form>& forms = explanations_[explanation].forms;
   std::pair<FormFit, std::size_t> best;
   for (std::size_t i = 0; i < forms.size(); ++i) {
-    const FormFit fit = fitForm(fold.gram[first_form_[explanation] + i],
-                                rowsOf(fold.right, placesOf(forms[i])), forms[i].free);
+    const FormFit fit = fitForm(all_.gram[first_form_[explanation] + i],
+                                rowsOf(all_.right, placesOf(forms[i])), forms[i].free);
     if (i == 0 || fit.likelihood > best.first.likelihood) best = {fit, i};
   }
   return best;
@@ -447,24 +450,16 @@ void HeldOutScores::score() {
   for (std::size_t e = 0; e < explanations_.size(); ++e) {
     HeldOutScore score;
     score.nats.assign(cycles_.size(), 0.0);
-    for (std::size_t f = 0; f < fold_number_; ++f) {
-      const Eigen::MatrixXd nats = gains(f, e, folds_[f].right, errors);
-      const std::vector<std::size_t> tested = testedIn(f);
-      for (std::size_t k = 0; k < tested.size(); ++k) score.nats[tested[k]] = nats(static_cast<Index>(k), 0);
+    for (const Fold& fold : folds_) {
+      const Eigen::MatrixXd nats = gains(fold, e, fold.right, errors);
+      for (std::size_t k = 0; k < fold.tested.size(); ++k)
+        score.nats[fold.tested[k]] = nats(static_cast<Index>(k), 0);
     }
-    std::tie(score.fit, score.form) = bestForm(all_, e);
+    std::tie(score.fit, score.form) = bestForm(e);
     for (const double nats : score.nats) score.total += nats;
     if (explanations_[e].by_chance) score.total = score.fit.likelihood;
     scores_.push_back(score);
   }
-}
-
-std::vector<std::size_t> HeldOutScores::testedIn(std::size_t f) const {
-  std::vector<std::size_t> tested;
-  for (std::size_t c = 0; c < cycles_.size(); ++c) {
-    if (cycles_[c].fold == f && !cycles_[c].covered.empty()) tested.push_back(c);
-  }
-  return tested;
 }
 
 // What an explanation adds to the logarithm of the predictive density of the cycles that are tested in a
@@ -472,29 +467,26 @@ std::vector<std::size_t> HeldOutScores::testedIn(std::size_t f) const {
 // marginal likelihoods in the other folds. `right`: products of the columns with the readings of the other
 // folds. `errors`: of each cycle, the static model fitted to the other folds. Source: J. Hoeting et al.,
 // Bayesian model averaging, Statistical Science 14 (1999) 382-417.
-Eigen::MatrixXd HeldOutScores::gains(std::size_t f, std::size_t explanation, const Eigen::MatrixXd& right,
+Eigen::MatrixXd HeldOutScores::gains(const Fold& fold, std::size_t explanation, const Eigen::MatrixXd& right,
                                      const std::vector<Eigen::MatrixXd>& errors) const {
-  const std::vector<std::size_t> tested = testedIn(f);
   const std::vector<Form>& forms = explanations_[explanation].forms;
-  Eigen::MatrixXd nats = Eigen::MatrixXd::Constant(Index(tested.size()), right.cols(), -INFINITY);
+  Eigen::MatrixXd nats = Eigen::MatrixXd::Constant(Index(fold.tested.size()), right.cols(), -INFINITY);
   Eigen::VectorXd weights = Eigen::VectorXd::Constant(right.cols(), -INFINITY);
   for (std::size_t i = 0; i < forms.size(); ++i) {
-    const Eigen::MatrixXd& gram = folds_[f].gram[first_form_[explanation] + i];
+    const Eigen::MatrixXd& gram = fold.gram[first_form_[explanation] + i];
     const FormFitter fitter(gram, forms[i].free);
     const Eigen::MatrixXd own = rowsOf(right, placesOf(forms[i]));
     std::vector<Eigen::MatrixXd> columns;
-    for (const std::size_t c : tested) columns.push_back(columnsOf(cycles_[c].test_net, forms[i]));
+    for (const std::size_t c : fold.tested) columns.push_back(columnsOf(cycles_[c].test_net, forms[i]));
     for (Index d = 0; d < right.cols(); ++d) {
       const FormFit fit = fitter.fit(own.col(d));
       weights[d] = logOfSum(weights[d], fit.likelihood);
-      if (fit.variance == 0) {
-        for (Index k = 0; k < nats.rows(); ++k) nats(k, d) = logOfSum(nats(k, d), fit.likelihood);
-        continue;
-      }
-      const FormPrediction prediction(gram, fit);
-      for (std::size_t k = 0; k < tested.size(); ++k) {
+      std::optional<FormPrediction> prediction;
+      if (fit.variance > 0) prediction.emplace(gram, fit);
+      for (std::size_t k = 0; k < columns.size(); ++k) {
+        const Eigen::MatrixXd& error = errors[fold.tested[k]];
         double& sum = nats(static_cast<Index>(k), d);
-        sum = logOfSum(sum, fit.likelihood + prediction.nats(columns[k], errors[tested[k]].col(d)));
+        sum = logOfSum(sum, fit.likelihood + (prediction ? prediction->nats(columns[k], error.col(d)) : 0));
       }
     }
   }
@@ -552,13 +544,11 @@ NullScores HeldOutScores::nullScores(std::size_t draws, std::uint64_t seed, unsi
     const Eigen::MatrixXd statics = all.statics - drawn[f].statics;
     const Eigen::MatrixXd right = all.columns - drawn[f].columns - fold.solved.transpose() * statics;
     const Eigen::MatrixXd curves = fold.inverse * statics;
-    for (std::size_t c = 0; c < cycles_.size(); ++c) {
-      const Whitened& w = cycles_[c];
-      if (w.fold == f && !w.covered.empty()) errors[c] -= w.test_statics * rowsOf(curves, w.places);
-    }
+    for (const std::size_t c : fold.tested)
+      errors[c] -= cycles_[c].test_statics * rowsOf(curves, cycles_[c].places);
     matrix::forEachTaxel(explanations_.size(), threads, [&](std::size_t e) {
       if (explanations_[e].by_chance) return;
-      const Eigen::RowVectorXd sums = gains(f, e, right, errors).colwise().sum();
+      const Eigen::RowVectorXd sums = gains(fold, e, right, errors).colwise().sum();
       for (std::size_t d = 0; d < draws; ++d) null.of[e][d] += sums[static_cast<Index>(d)];
     });
   }

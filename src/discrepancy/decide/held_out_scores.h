@@ -84,6 +84,7 @@ class HeldOutScores {
     Eigen::MatrixXd inverse;  // of the regularised statics
     Grams gram;               // statics eliminated
     Eigen::VectorXd right;    // likewise, with the reading
+    std::vector<std::size_t> tested;  // cycles that are predicted
   };
   struct Whitened {
     Eigen::MatrixXd root;              // Cholesky factor of the noise
@@ -105,8 +106,7 @@ class HeldOutScores {
   struct Drawn;
   struct Products;
   std::vector<Drawn> draw(Eigen::Index draws, std::uint64_t seed, std::vector<Eigen::MatrixXd>& test) const;
-  std::vector<std::size_t> testedIn(std::size_t f) const;
-  Eigen::MatrixXd gains(std::size_t f, std::size_t explanation, const Eigen::MatrixXd& right,
+  Eigen::MatrixXd gains(const Fold& fold, std::size_t explanation, const Eigen::MatrixXd& right,
                         const std::vector<Eigen::MatrixXd>& errors) const;
   std::vector<double> likelihoods(std::size_t explanation, const Eigen::MatrixXd& right) const;
   void chooseColumns();
@@ -116,7 +116,7 @@ class HeldOutScores {
   static void whitenTest(Whitened& cycle, const Eigen::MatrixXd& inverse);
   std::vector<Products> productsOfFolds() const;
   void solveFolds();
-  std::pair<FormFit, std::size_t> bestForm(const Fold& fold, std::size_t explanation) const;
+  std::pair<FormFit, std::size_t> bestForm(std::size_t explanation) const;
   void score();
   Eigen::Index columnOf(const Form& form, std::size_t k) const {
     return place_[static_cast<std::size_t>(form.columns[k] + (form.bent_only ? design_.columns : 0))];

@@ -139,6 +139,11 @@ double Search::leastGap(const Explaining& explaining) const {
   return discrepancy::leastGap(measured_, options_, explaining.slow);
 }
 
+double Search::usualCoefficient(const Signature& signature) const {
+  return simulation::parameter(measured_.info(signature.id), signature.strength).usual /
+         std::abs(signature.scale);
+}
+
 // Where the fit of a single effect begins.
 std::vector<SingleColumn> Search::startsOf(const Weighed& weighed) const {
   std::vector<SingleColumn> starts;
@@ -152,9 +157,8 @@ std::vector<SingleColumn> Search::startsOf(const Weighed& weighed) const {
   const auto& all = candidates_.signatures();
   const auto own = std::find_if(all.begin(), all.end(),
                                 [&](const Signature& s) { return s.id == weighed.explaining.ids.front(); });
-  const double usual =
-      simulation::parameter(measured_.info(own->id), own->strength).usual / std::abs(own->scale);
-  for (const double multiple : kStarts) starts.push_back({own - all.begin(), multiple * usual, false});
+  for (const double multiple : kStarts)
+    starts.push_back({own - all.begin(), multiple * usualCoefficient(*own), false});
   return starts;
 }
 
@@ -167,11 +171,10 @@ std::vector<SingleColumn> Search::nearestShapes(const std::string& id) const {
   const auto& all = candidates_.signatures();
   for (std::size_t s = 0; s < all.size(); ++s) {
     if (all[s].id != id || (s > 0 && isOfOneShape(all[s], all[s - 1]))) continue;
-    const double usual =
-        simulation::parameter(measured_.info(id), all[s].strength).usual / std::abs(all[s].scale);
-    SingleColumn start{static_cast<Eigen::Index>(s), usual, false};
+    SingleColumn start{static_cast<Eigen::Index>(s), usualCoefficient(all[s]), false};
+    if (start.coefficient == 0) continue;
     const auto left = forward.left({begin(start)}, {false});
-    if (!left || usual == 0) continue;
+    if (!left) continue;
     const Trace change = nothing - *left;
     const double pull = change.dot(nothing), square = change.squaredNorm();
     if (!(square > 0) || (pull < 0 && !all[s].free_sign)) continue;
@@ -201,7 +204,6 @@ simulation::EnabledEffect Search::begin(const SingleColumn& column) const {
 // stay.
 Fitted Search::fitSingle(const Weighed& weighed) const {
   Fitted best{weighed.explaining.ids, {}, {false}};
-  bool any = false;
   std::vector<std::pair<simulation::EnabledEffect, bool>> tried;  // clamped strengths may be the same
   const auto tryFrom = [&](const SingleColumn& start, double left) {
     const std::vector<bool> bent = {start.bent_only};
@@ -213,8 +215,7 @@ Fitted Search::fitSingle(const Weighed& weighed) const {
     if (again) return;
     tried.emplace_back(from, start.bent_only);
     const Refined now = refine(measured_, common_, fit_, base_, {from}, bent);
-    if (any && 1 - now.share >= left * (1 - best.refined.share)) return;
-    any = true;
+    if (tried.size() > 1 && 1 - now.share >= left * (1 - best.refined.share)) return;
     best.refined = now;
     best.bent_only = bent;
   };

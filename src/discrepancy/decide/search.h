@@ -55,6 +55,7 @@ class Search {
  private:
   void sharpen();
   void pairUp();
+  double usualCoefficient(const Signature& signature) const;
   std::vector<SingleColumn> startsOf(const Weighed& weighed) const;
   std::vector<SingleColumn> nearestShapes(const std::string& id) const;
   bool isSlowBesideFast(std::size_t second);
